@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gpu/core/error.h"
+
+namespace parity::gpu {
+
+class Commands;
+struct ContextState;  // Vulkan handles; defined in gpu/core/vulkan_state.h, for gpu/core/*.cpp only
+
+/// What a device is and can do, as it says itself.
+struct DeviceInfo {
+  int index = 0;
+  std::string name;
+  std::string driver;       ///< name and version
+  std::string type;         ///< "cpu", "integrated", "discrete", "virtual", "other"
+  std::string api_version;  ///< "1.4.305"
+  std::string refused;      ///< why the device cannot be used; empty: it can
+  bool is_mesa_software = false;
+  bool is_swiftshader = false;
+  bool cuts_loops_short = false;  ///< the canary's answer; set on the device of a Context only
+  int subpixel_bits = 0;
+  int subtexel_bits = 0;
+  int mipmap_bits = 0;
+  int subgroup_size = 0;
+  int max_workgroup_invocations = 0;
+  std::uint64_t max_buffer_bytes = 0;
+  std::uint64_t memory_bytes = 0;
+  std::vector<int> sample_counts;  ///< for colour and depth together
+  bool timestamps = false;
+  bool host_memory_import = false;  ///< fenced buffers are possible
+};
+
+/// All devices that the driver shows, suitable or not.
+///
+/// @throws Error  no loader or driver.
+std::vector<DeviceInfo> list_devices();
+
+/// How buffers are watched in tests (see Buffer).
+enum class Guard { none, zones, fences };
+
+struct ContextOptions {
+  std::string device;       ///< index or part of a name; empty: PARITY_DEVICE, else the fastest type
+  bool validation = false;  ///< core + synchronization + GPU-assisted; throws if the layer is missing
+  Guard guard = Guard::none;
+  double timeout_seconds = 120;  ///< for one submission
+};
+
+/// How long the device took.
+struct Timing {
+  double seconds = 0;  ///< whole submission
+  std::vector<std::pair<std::string, double>> passes;  ///< what Commands::pass named
+};
+
+/// One device with one queue. Made once, passed by reference, outlives all that is made from it.
+class Context {
+ public:
+  /// @throws Error  naming the driver, device or feature that is missing.
+  explicit Context(const ContextOptions& options = {});
+  ~Context();
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  const DeviceInfo& info() const;
+  const ContextOptions& options() const;
+
+  /// Records, submits, waits.
+  ///
+  /// @return  seconds by the device's own clock; of the host's if it has none.
+  /// @throws Error  device lost, out of memory, timed out, or a guard zone was written to.
+  Timing run(const std::function<void(Commands&)>& record);
+
+  /// All that the validation layer said since the last call, one message an entry.
+  std::vector<std::string> take_validation_messages();
+
+  /// Bytes of live buffers and images, now and at most so far.
+  std::uint64_t memory_bytes() const;
+  std::uint64_t peak_memory_bytes() const;
+
+  /// For gpu/core only.
+  ContextState& state() const { return *state_; }
+
+ private:
+  std::unique_ptr<ContextState> state_;
+};
+
+}  // namespace parity::gpu
