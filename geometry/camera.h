@@ -29,7 +29,8 @@ struct Camera {
 /// Clip from view for Vulkan: x right, y DOWN, depth 0 to 1 (reverse-Z: 1 to 0). The only place
 /// where y turns over.
 ///
-/// @param aspect  width / height of the picture; used where the camera names none.
+/// @param aspect  width / height of the picture. Where the camera names another, the view grows on
+///                one axis: nothing is stretched, nothing that the camera shows is cut off.
 /// @throws std::invalid_argument  a parameter outside its range.
 ///
 /// Source: notes 2.6; Vulkan 1.3, "Coordinate Transformations".

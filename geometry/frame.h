@@ -12,8 +12,8 @@ namespace parity {
 struct FrameOptions {
   int width = 1280;
   int height = 720;
-  int samples = 1;          ///< 1, 2, 4 or 8 a pixel, at the standard sample places
-  std::string camera;       ///< name or index of a camera of the scene; empty: the first, else framed
+  int samples = 1;     ///< 1, 2, 4 or 8 a pixel, at the standard sample places
+  std::string camera;  ///< name or index of a camera of the scene; empty: the first, else framed
   DepthMode depth = DepthMode::reverse_z;
   vec4 background{0.0f, 0.0f, 0.0f, 0.0f};  ///< linear RGB and alpha
 };
@@ -41,14 +41,14 @@ struct Frame {
   FrameOptions options;
   dmat4 view_from_world{1.0};
   dmat4 clip_from_view{1.0};
-  dvec3 eye{0.0};            ///< m, world; unused if orthographic
+  dvec3 eye{0.0};                 ///< m, world; unused if orthographic
   dvec3 backward{0.0, 0.0, 1.0};  ///< unit, world: from the scene to an orthographic camera
   bool orthographic = false;
   double near = 0.1;
-  double far = 0.0;          ///< 0: infinite
-  std::vector<Draw> draws;   ///< in the order of the scene
+  double far = 0.0;         ///< 0: infinite
+  std::vector<Draw> draws;  ///< in the order of the scene
   std::vector<PlacedLight> lights;
-  vec3 ambient{0.0f};        ///< radiance of the uniform environment, linear RGB, W/(m^2 sr)
+  vec3 ambient{0.0f};  ///< radiance of the uniform environment, linear RGB, W/(m^2 sr)
 };
 
 /// Places everything. Without a camera: a perspective one that shows the whole scene. Without a
@@ -59,10 +59,11 @@ Frame make_frame(const Scene& scene, const FrameOptions& options);
 
 /// A renderer's answer. Linear RGB, alpha 0 where only background is.
 struct Picture {
-  Grid<vec4> color;            ///< premultiplied by nothing: what is on top, in W/(m^2 sr)
-  Grid<float> depth;           ///< of sample 0, in the convention of the frame
-  Grid<std::uint32_t> element; ///< of sample 0: 1 + number of the opaque triangle in front, counted
-                               ///< through all draws; 0: background. Empty unless asked for.
+  Grid<vec4> color;   ///< premultiplied by nothing: what is on top, in W/(m^2 sr)
+  Grid<float> depth;  ///< of sample 0, in the convention of the frame
+  Grid<std::uint32_t>
+      element;  ///< of sample 0: 1 + number of the opaque triangle in front, counted
+                ///< through all draws; 0: background. Empty unless asked for.
   std::uint64_t triangle_count = 0;
   std::vector<std::pair<std::string, double>> pass_seconds;
   std::uint64_t memory_bytes = 0;  ///< of buffers and images that the renderer made

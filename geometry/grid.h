@@ -26,7 +26,9 @@ class Grid {
   std::size_t size() const { return values_.size(); }
   bool empty() const { return values_.empty(); }
 
-  T& operator()(int x, int y) { return values_[std::size_t(y) * std::size_t(width_) + std::size_t(x)]; }
+  T& operator()(int x, int y) {
+    return values_[std::size_t(y) * std::size_t(width_) + std::size_t(x)];
+  }
   const T& operator()(int x, int y) const {
     return values_[std::size_t(y) * std::size_t(width_) + std::size_t(x)];
   }

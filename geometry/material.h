@@ -8,9 +8,9 @@ namespace parity {
 
 /// How a material reads one of its textures.
 struct TextureUse {
-  int texture = -1;           ///< index into Scene::textures, -1: none
-  int uv_set = 0;             ///< TEXCOORD_n
-  mat3 texture_from_uv{1.0f}; ///< KHR_texture_transform, column vectors (u, v, 1)
+  int texture = -1;            ///< index into Scene::textures, -1: none
+  int uv_set = 0;              ///< TEXCOORD_n
+  mat3 texture_from_uv{1.0f};  ///< KHR_texture_transform, column vectors (u, v, 1)
 };
 
 enum class AlphaMode { opaque, mask, blend };

@@ -11,9 +11,10 @@ namespace parity {
 /// A polygon mesh as files hold it: shared vertices, faces of any number of corners, any topology.
 /// Half-edge structure and measures are built from it on demand.
 struct Mesh {
-  std::vector<vec3> positions;              ///< m
-  std::vector<std::uint32_t> corners;       ///< vertex of each corner, face after face
-  std::vector<std::uint32_t> face_begin{0}; ///< face f has corners [face_begin[f], face_begin[f+1])
+  std::vector<vec3> positions;         ///< m
+  std::vector<std::uint32_t> corners;  ///< vertex of each corner, face after face
+  std::vector<std::uint32_t> face_begin{
+      0};  ///< face f has corners [face_begin[f], face_begin[f+1])
 
   /// Per corner; empty where the file has none.
   std::vector<vec2> corner_uvs;

@@ -38,8 +38,8 @@ struct Coverage {
   int width = 0;
   int height = 0;
   int samples = 1;
-  std::vector<std::uint32_t> count;     ///< triangles that cover the sample
-  std::vector<std::uint32_t> last;      ///< 1 + the last triangle in the list that does; 0: none
+  std::vector<std::uint32_t> count;  ///< triangles that cover the sample
+  std::vector<std::uint32_t> last;   ///< 1 + the last triangle in the list that does; 0: none
 };
 
 /// A varying at every vertex of a triangle list, for interpolation. `perspective` false is

@@ -1,6 +1,5 @@
 #include <cstdio>
 #include <memory>
-
 #include <nlohmann/json.hpp>
 
 #include "gpu/core/context.h"
@@ -33,22 +32,27 @@ void print(const gpu::DeviceInfo& device) {
   std::printf("   %s, %s, Vulkan %s\n", device.driver.c_str(), device.type.c_str(),
               device.api_version.c_str());
   std::string samples;
-  for (int count : device.sample_counts) samples += (samples.empty() ? "" : ", ") + std::to_string(count);
-  std::printf("   samples %s; bits: sub-pixel %d, sub-texel %d, mip %d; subgroup %d\n", samples.c_str(),
-              device.subpixel_bits, device.subtexel_bits, device.mipmap_bits, device.subgroup_size);
+  for (int count : device.sample_counts)
+    samples += (samples.empty() ? "" : ", ") + std::to_string(count);
+  std::printf("   samples %s; bits: sub-pixel %d, sub-texel %d, mip %d; subgroup %d\n",
+              samples.c_str(), device.subpixel_bits, device.subtexel_bits, device.mipmap_bits,
+              device.subgroup_size);
   std::printf("   largest buffer %llu MiB, memory %llu MiB\n",
               static_cast<unsigned long long>(device.max_buffer_bytes >> 20),
               static_cast<unsigned long long>(device.memory_bytes >> 20));
-  std::printf("   %s\n", device.refused.empty() ? "usable" : ("refused: " + device.refused).c_str());
+  std::printf("   %s\n",
+              device.refused.empty() ? "usable" : ("refused: " + device.refused).c_str());
 }
 
 }  // namespace
 
 void add_devices_verb(CLI::App& app, int& exit_code) {
-  CLI::App* verb = app.add_subcommand("devices", "List Vulkan devices, their limits, and why one is refused");
+  CLI::App* verb =
+      app.add_subcommand("devices", "List Vulkan devices, their limits, and why one is refused");
   auto json = std::make_shared<bool>(false);
   verb->add_flag("--json", *json, "Machine-readable output");
-  verb->footer("Examples:\n  parity devices\n  PARITY_DEVICE=llvmpipe parity render scene.glb -o a.png");
+  verb->footer(
+      "Examples:\n  parity devices\n  PARITY_DEVICE=llvmpipe parity render scene.glb -o a.png");
   verb->callback([json, &exit_code] {
     const std::vector<gpu::DeviceInfo> devices = gpu::list_devices();
     if (*json) {

@@ -9,8 +9,10 @@
 namespace {
 
 constexpr const char* exit_codes =
-    "Exit codes: 0 success; 1 the job ran and failed; 2 wrong usage or input; 3 no method meets the\n"
-    "budget; 4 no suitable device, device lost, out of memory; 5 output not written; 130 interrupted.";
+    "Exit codes: 0 success; 1 the job ran and failed; 2 wrong usage or input; 3 no method meets "
+    "the\n"
+    "budget; 4 no suitable device, device lost, out of memory; 5 output not written; 130 "
+    "interrupted.";
 
 int fail(int code, const char* what) {
   std::fprintf(stderr, "parity: %s\n", what);
@@ -20,7 +22,8 @@ int fail(int code, const char* what) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Parity: computer graphics twice, on Vulkan and on the CPU, and the proof that both agree"};
+  CLI::App app{
+      "Parity: computer graphics twice, on Vulkan and on the CPU, and the proof that both agree"};
   app.name("parity");
   app.set_version_flag("--version", "parity " PARITY_VERSION);
   app.require_subcommand(1);

@@ -46,15 +46,16 @@ std::vector<DeviceInfo> list_devices();
 enum class Guard { none, zones, fences };
 
 struct ContextOptions {
-  std::string device;       ///< index or part of a name; empty: PARITY_DEVICE, else the fastest type
-  bool validation = false;  ///< core + synchronization + GPU-assisted; throws if the layer is missing
+  std::string device;  ///< index or part of a name; empty: PARITY_DEVICE, else the fastest type
+  bool validation =
+      false;  ///< core + synchronization + GPU-assisted; throws if the layer is missing
   Guard guard = Guard::none;
   double timeout_seconds = 120;  ///< for one submission
 };
 
 /// How long the device took.
 struct Timing {
-  double seconds = 0;  ///< whole submission
+  double seconds = 0;                                  ///< whole submission
   std::vector<std::pair<std::string, double>> passes;  ///< what Commands::pass named
 };
 

@@ -11,9 +11,9 @@ enum class ErrorKind {
   missing_feature,  ///< the device lacks what a kernel needs
   out_of_memory,
   device_lost,
-  timed_out,        ///< no answer within ContextOptions::timeout_seconds
+  timed_out,  ///< no answer within ContextOptions::timeout_seconds
   invalid_shader,
-  broken_guard,     ///< something wrote outside its buffer
+  broken_guard,  ///< something wrote outside its buffer
   other,
 };
 

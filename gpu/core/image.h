@@ -45,8 +45,13 @@ struct SamplerOptions {
   bool linear_mag = true;
   bool linear_min = true;
   bool linear_mip = true;
-  enum class Wrap { repeat, mirrored_repeat, clamp_to_edge, clamp_to_border } wrap_u = Wrap::repeat,
-                                                                           wrap_v = Wrap::repeat;
+  enum class Wrap {
+    repeat,
+    mirrored_repeat,
+    clamp_to_edge,
+    clamp_to_border
+  } wrap_u = Wrap::repeat,
+    wrap_v = Wrap::repeat;
   float lod_bias = 0;
   float min_lod = 0;
   float max_lod = 1000;

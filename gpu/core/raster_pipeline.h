@@ -10,7 +10,16 @@
 
 namespace parity::gpu {
 
-enum class Compare { never, less, equal, less_or_equal, greater, not_equal, greater_or_equal, always };
+enum class Compare {
+  never,
+  less,
+  equal,
+  less_or_equal,
+  greater,
+  not_equal,
+  greater_or_equal,
+  always
+};
 enum class Blend { replace, source_over, premultiplied_over, add };
 enum class Culling { none, back, front };  ///< counter-clockwise seen with y up is front
 enum class Primitive { points, lines, triangles };
@@ -44,8 +53,8 @@ class RawRasterPipeline {
   std::unique_ptr<State> state_;
 };
 
-/// Vertices are pulled through buffer references by gl_VertexIndex; `Args` are the push constants of
-/// both stages. Front faces are counter-clockwise with y up; clip space has y down, as
+/// Vertices are pulled through buffer references by gl_VertexIndex; `Args` are the push constants
+/// of both stages. Front faces are counter-clockwise with y up; clip space has y down, as
 /// clip_from_view makes it.
 template <typename Args>
 class RasterPipeline {

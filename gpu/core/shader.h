@@ -7,8 +7,8 @@
 
 namespace parity::gpu {
 
-/// A compiled shader, embedded by the build as `parity::gpu::shaders::<chapter>_<stage>_<comp|vert|frag>`
-/// in "shaders.h" (generated).
+/// A compiled shader, embedded by the build as
+/// `parity::gpu::shaders::<chapter>_<stage>_<comp|vert|frag>` in "shaders.h" (generated).
 struct ShaderCode {
   const char* name;
   std::span<const std::uint32_t> words;
@@ -22,7 +22,7 @@ struct ShaderReflection {
     enum class Kind { sampled_image, storage_image } kind = Kind::sampled_image;
   };
   std::uint32_t push_constant_bytes = 0;
-  std::uint32_t local_size[3] = {1, 1, 1};  ///< defaults, before specialization
+  std::uint32_t local_size[3] = {1, 1, 1};    ///< defaults, before specialization
   int local_size_constant[3] = {-1, -1, -1};  ///< constant_id of each, -1: fixed
   std::vector<std::uint32_t> specialization_ids;
   std::vector<Descriptor> descriptors;

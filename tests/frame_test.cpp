@@ -1,0 +1,149 @@
+#include "geometry/frame.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "geometry/mip_pyramid.h"
+
+namespace parity {
+namespace {
+
+dvec3 project(const dmat4& clip, const dvec3& p) {
+  const dvec4 c = clip * dvec4(p, 1.0);
+  return dvec3(c) / c.w;
+}
+
+Scene one_triangle() {
+  Scene scene;
+  Primitive primitive;
+  primitive.positions = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+  primitive.normals.assign(3, {0, 0, 1});
+  primitive.indices = {0, 1, 2};
+  scene.meshes.push_back({"triangle", {primitive}});
+  Node node;
+  node.mesh = 0;
+  scene.nodes.push_back(node);
+  return scene;
+}
+
+TEST(ClipFromView, PutsTheUpperEdgeOfTheViewAtMinusOne) {
+  Camera camera;
+  camera.vertical_fov = std::numbers::pi / 2;  // tan of half is 1
+  camera.near = 1;
+  camera.far = 10;
+  const dmat4 clip = clip_from_view(camera, 2.0, DepthMode::standard);
+  EXPECT_NEAR(project(clip, {0, 5, -5}).y, -1, 1e-15);
+  EXPECT_NEAR(project(clip, {10, 0, -5}).x, 1, 1e-15);
+}
+
+TEST(ClipFromView, MapsNearAndFarToTheEndsOfEachDepthMode) {
+  for (const bool orthographic : {false, true}) {
+    Camera camera;
+    camera.orthographic = orthographic;
+    camera.near = 0.5;
+    camera.far = 200;
+    const dmat4 standard = clip_from_view(camera, 1, DepthMode::standard);
+    const dmat4 reverse = clip_from_view(camera, 1, DepthMode::reverse_z);
+    EXPECT_NEAR(project(standard, {0, 0, -0.5}).z, 0, 1e-13);
+    EXPECT_NEAR(project(standard, {0, 0, -200}).z, 1, 1e-13);
+    EXPECT_NEAR(project(reverse, {0, 0, -0.5}).z, 1, 1e-13);
+    EXPECT_NEAR(project(reverse, {0, 0, -200}).z, 0, 1e-13);
+  }
+}
+
+TEST(ClipFromView, InfiniteFarReachesTheEndOnlyAtInfinity) {
+  Camera camera;
+  camera.near = 0.25;
+  const dmat4 reverse = clip_from_view(camera, 1, DepthMode::reverse_z);
+  EXPECT_NEAR(project(reverse, {0, 0, -1000}).z, 0.25 / 1000, 1e-18);
+}
+
+TEST(ClipFromView, NeverStretchesACameraWithItsOwnAspect) {
+  Camera camera;
+  camera.aspect = 2.0;
+  for (const double aspect : {0.5, 1.0, 2.0, 3.0}) {
+    const dmat4 clip = clip_from_view(camera, aspect, DepthMode::standard);
+    EXPECT_NEAR(-clip[1][1] / clip[0][0], aspect, 1e-14);  // square pixels
+    EXPECT_GE(1 / clip[0][0], 2 * std::tan(camera.vertical_fov / 2) * (1 - 1e-15));
+    EXPECT_GE(-1 / clip[1][1], std::tan(camera.vertical_fov / 2) * (1 - 1e-15));
+  }
+}
+
+TEST(ClipFromView, RefusesWhatIsNoCamera) {
+  Camera camera;
+  camera.near = 0;
+  EXPECT_THROW(clip_from_view(camera, 1, DepthMode::standard), std::invalid_argument);
+  camera.near = 1;
+  camera.far = 1;
+  EXPECT_THROW(clip_from_view(camera, 1, DepthMode::standard), std::invalid_argument);
+  camera.far.reset();
+  camera.vertical_fov = 0;
+  EXPECT_THROW(clip_from_view(camera, 1, DepthMode::standard), std::invalid_argument);
+}
+
+TEST(MakeFrame, FramesASceneWithoutACamera) {
+  const Scene scene = one_triangle();
+  for (const ivec2 size : {ivec2(100, 100), ivec2(300, 50), ivec2(40, 200)}) {
+    const Frame frame = make_frame(scene, {.width = size.x, .height = size.y});
+    ASSERT_EQ(frame.draws.size(), 1u);
+    for (const vec3& p : scene.meshes[0].primitives[0].positions) {
+      const vec4 clip = frame.draws[0].clip_from_object * vec4(p, 1);
+      EXPECT_GT(clip.w, 0);
+      EXPECT_LT(std::abs(clip.x), clip.w);
+      EXPECT_LT(std::abs(clip.y), clip.w);
+      EXPECT_GT(clip.z, 0);
+      EXPECT_LT(clip.z, clip.w);
+    }
+  }
+}
+
+TEST(MakeFrame, TurnsNormalsByTheInverseTranspose) {
+  Scene scene = one_triangle();
+  scene.nodes[0].parent_from_node = dmat4(1.0);
+  scene.nodes[0].parent_from_node[0][0] = -2;  // mirrored and stretched
+  const Frame frame = make_frame(scene, {});
+  EXPECT_TRUE(frame.draws[0].mirrored);
+  const dvec3 tangent{1, -1, 0};
+  const dvec3 normal{1, 1, 0};  // perpendicular in object space
+  const dvec3 world_tangent = dmat3(frame.draws[0].world_from_object) * tangent;
+  const dvec3 world_normal = frame.draws[0].world_from_object_normal * normal;
+  EXPECT_NEAR(glm::dot(world_tangent, world_normal), 0, 1e-12);
+  EXPECT_LT(world_normal.x, 0);  // (1, 1, 0) mirrored in x still points out of the same side
+}
+
+TEST(MakeFrame, NamesTheCamerasThereAre) {
+  Scene scene = one_triangle();
+  scene.cameras.push_back({.name = "front"});
+  try {
+    make_frame(scene, {.camera = "back"});
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("front"), std::string::npos);
+  }
+}
+
+TEST(MipPyramid, KeepsTheMeanOfAnOddImage) {
+  Grid<u8vec4> image{5, 3};
+  for (int i = 0; i < 15; ++i)
+    image.values()[std::size_t(i)] = u8vec4(i * 17, 255 - i * 17, i % 2 * 255, 255);
+  double mean = 0;
+  for (const u8vec4& t : image) mean += t.x / 15.0;
+  const auto levels = mip_pyramid(image, false);
+  ASSERT_EQ(levels.size(), 3u);  // 5x3, 2x1, 1x1
+  EXPECT_EQ(levels[1].width(), 2);
+  EXPECT_EQ(levels[1].height(), 1);
+  EXPECT_NEAR(levels[2](0, 0).x, mean, 0.5);  // one rounding to 8 bits
+}
+
+TEST(MipPyramid, AveragesInLinearLight) {
+  Grid<u8vec4> image{2, 1};
+  image(0, 0) = u8vec4(0, 0, 0, 255);
+  image(1, 0) = u8vec4(255, 255, 255, 255);
+  EXPECT_EQ(mip_pyramid(image, true)[1](0, 0).x, 188);  // sRGB code of linear 0.5
+  EXPECT_EQ(mip_pyramid(image, false)[1](0, 0).x, 128);
+}
+
+}  // namespace
+}  // namespace parity
