@@ -33,6 +33,14 @@ struct TriangleList {
 /// @throws std::invalid_argument  samples is not 1, 2, 4 or 8.
 std::vector<ivec2> standard_sample_places(int samples);
 
+/// What clipping leaves of a triangle: a convex polygon, its corners in the order of the triangle's.
+/// A triangle cut by seven planes has at most ten. Empty: count is 0.
+struct ClippedPolygon {
+  std::uint32_t count = 0;
+  std::array<dvec4, 10> position{};     ///< clip space
+  std::array<dvec3, 10> barycentric{};  ///< of the corner in the triangle, linear in clip space
+};
+
 /// What covers each sample: sample s of pixel (x, y) stands at index (y width + x) samples + s.
 struct Coverage {
   int width = 0;
@@ -53,6 +61,13 @@ struct Varyings {
 struct DepthImage {
   Grid<float> depth;
   Grid<std::uint32_t> front;  ///< 1 + index of the triangle; 0: none
+};
+
+/// How a layer goes on top of what is there; colours are linear.
+enum class BlendMode {
+  over,                ///< source-over, colour not multiplied by alpha
+  over_premultiplied,  ///< source-over, colour multiplied by alpha
+  add,                 ///< sum of colours and alphas
 };
 
 /// Segments in window space for line rasterisation, integer end points (Bresenham) or real (DDA).
