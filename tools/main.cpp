@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "geometry/input_error.h"
+#include "geometry/output_error.h"
 #include "gpu/core/error.h"
 #include "tools/verb.h"
 
@@ -39,6 +40,8 @@ int main(int argc, char** argv) {
     return fail(4, error.what());
   } catch (const parity::InputError& error) {
     return fail(2, error.what());
+  } catch (const parity::OutputError& error) {
+    return fail(5, error.what());
   } catch (const std::invalid_argument& error) {
     return fail(2, error.what());
   } catch (const std::bad_alloc&) {
