@@ -63,7 +63,7 @@ struct DepthImage {
   Grid<std::uint32_t> front;  ///< 1 + index of the triangle; 0: none
 };
 
-/// How a layer goes on top of what is there; colours are linear.
+/// How a layer goes on top of what is there; colours are linear. The first layer goes on (0, 0, 0, 0).
 enum class BlendMode {
   over,                ///< source-over, colour not multiplied by alpha
   over_premultiplied,  ///< source-over, colour multiplied by alpha

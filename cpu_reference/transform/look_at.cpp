@@ -24,7 +24,7 @@ dmat4 view_from_world(const LookAt& camera) {
   const dvec3 w = glm::normalize(right);
   const dvec3 t = glm::cross(w, g);
   const dmat4 rows{dvec4(w, -glm::dot(w, eye)), dvec4(t, -glm::dot(t, eye)),
-                                   dvec4(-g, glm::dot(g, eye)), dvec4(0.0, 0.0, 0.0, 1.0)};
+                   dvec4(-g, glm::dot(g, eye)), dvec4(0.0, 0.0, 0.0, 1.0)};
   return glm::transpose(rows);
 }
 

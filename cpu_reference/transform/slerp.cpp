@@ -39,8 +39,8 @@ dquat slerp(const Arc& arc, double t) {
   const double omega = std::acos(std::min(arc.cosine, 1.0));
   if (omega < smallest_angle) return nlerp(arc, t);
   const double sine = std::sin(omega);
-  return quaternion_normalize(combine(std::sin((1.0 - t) * omega) / sine, arc.from,
-                                      std::sin(t * omega) / sine, arc.to));
+  return quaternion_normalize(
+      combine(std::sin((1.0 - t) * omega) / sine, arc.from, std::sin(t * omega) / sine, arc.to));
 }
 
 }  // namespace

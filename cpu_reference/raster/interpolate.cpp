@@ -1,0 +1,179 @@
+#include "cpu_reference/raster/interpolate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "cpu_reference/raster/rasterize.h"
+#include "cpu_reference/raster/triangle_list.h"
+
+namespace parity::cpu {
+namespace {
+
+/// Turns an affine function of NDC, (coefficients of x, of y, constant), into one of pixels.
+WindowPlane window_plane(dvec3 ndc, int width, int height) {
+  return {ndc.z - ndc.x - ndc.y, 2.0 * ndc.x / width, 2.0 * ndc.y / height};
+}
+
+WindowPlane combine(const std::array<WindowPlane, 3>& planes, dvec3 weights) {
+  WindowPlane sum;
+  for (int i = 0; i < 3; ++i) {
+    const WindowPlane& plane = planes[std::size_t(i)];
+    sum.at_origin += weights[i] * plane.at_origin;
+    sum.dx += weights[i] * plane.dx;
+    sum.dy += weights[i] * plane.dy;
+  }
+  return sum;
+}
+
+void check(const TriangleList& list, const Varyings& varyings) {
+  if (list.samples != 1)
+    throw std::invalid_argument("cpu::interpolate: samples is " + std::to_string(list.samples) +
+                                ", must be 1");
+  if (varyings.values.size() != list.clip_positions.size())
+    throw std::invalid_argument("cpu::interpolate: " + std::to_string(varyings.values.size()) +
+                                " values for " + std::to_string(list.clip_positions.size()) +
+                                " clip positions, must be as many");
+}
+
+/// A triangle with its varyings.
+struct Interpolant {
+  std::array<vec4, 3> clip;
+  std::array<dvec4, 3> values;
+  TrianglePlanes planes;
+  bool perspective;
+};
+
+Interpolant interpolant(const TriangleList& list, const Varyings& varyings, std::uint32_t index) {
+  const uvec3 t = list.triangles[index];
+  const std::array<vec4, 3> clip = corners_of(list, index);
+  return {clip,
+          {dvec4(varyings.values[t.x]), dvec4(varyings.values[t.y]), dvec4(varyings.values[t.z])},
+          triangle_planes(clip, list.width, list.height),
+          varyings.perspective};
+}
+
+dvec4 value_at(const Interpolant& of, double x, double y) {
+  dvec3 weights = of.planes.perspective(x, y);
+  if (!of.perspective)  // lambda_i = w_i (b_i / w): the corner's share in the window
+    for (int i = 0; i < 3; ++i)
+      weights[i] =
+          of.planes.barycentric_over_w[std::size_t(i)].at(x, y) * double(of.clip[std::size_t(i)].w);
+  return weights.x * of.values[0] + weights.y * of.values[1] + weights.z * of.values[2];
+}
+
+/// The bound of one affine function for all pixels of a triangle.
+class AffineBound {
+ public:
+  AffineBound(const Interpolant& of, int width, int height, Snapping snapping)
+      : width_(width),
+        height_(height),
+        snap_(std::numbers::sqrt2 * (snapping == Snapping::mesa ? 0x1p-9 : 0x1p-5)) {
+    std::array<dvec2, 3> p;
+    for (std::size_t i = 0; i < 3; ++i)
+      p[i] = (dvec2(of.clip[i]) / double(of.clip[i].w) + 1.0) * 0.5 * dvec2(width, height);
+    const dvec2 u = p[1] - p[0], v = p[2] - p[0], w = p[2] - p[1];
+    const double longest = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)});
+    slenderness_ = longest / std::abs(u.x * v.y - u.y * v.x);
+  }
+
+  double operator()(const WindowPlane& a, dvec3 at_corners) const {
+    const double largest =
+        std::max({std::abs(at_corners.x), std::abs(at_corners.y), std::abs(at_corners.z)});
+    const double over_window =
+        std::abs(a.at_origin) + std::abs(a.dx) * width_ + std::abs(a.dy) * height_;
+    return snap_ * std::hypot(a.dx, a.dy) + 8.0 * 0x1p-24 * std::max(over_window, largest) +
+           4.0 * 0x1p-24 * largest * slenderness_;
+  }
+
+ private:
+  double width_, height_;
+  double snap_;
+  double slenderness_ = 0.0;
+};
+
+/// Numerators a / w (or a itself) and the denominator of the four components, with their bounds.
+class ValueBound {
+ public:
+  ValueBound(const Interpolant& of, const TriangleList& list, Snapping snapping) : of_(of) {
+    const AffineBound bound{of, list.width, list.height, snapping};
+    const dvec3 w{of.clip[0].w, of.clip[1].w, of.clip[2].w};
+    denominator_error_ = bound(of.planes.reciprocal_w, 1.0 / w);
+    for (int c = 0; c < 4; ++c) {
+      const dvec3 values{of.values[0][c], of.values[1][c], of.values[2][c]};
+      const dvec3 weights = of.perspective ? values : values * w;
+      numerator_error_[c] = bound(combine(of.planes.barycentric_over_w, weights),
+                                  of.perspective ? values / w : values);
+    }
+  }
+
+  double at(double x, double y) const {
+    if (!of_.perspective) return largest(numerator_error_);
+    const double denominator = std::abs(of_.planes.reciprocal_w.at(x, y)) - denominator_error_;
+    if (!(denominator > 0.0)) return std::numeric_limits<double>::infinity();
+    const dvec4 value = glm::abs(value_at(of_, x, y));
+    return largest((numerator_error_ + value * denominator_error_) / denominator +
+                   11.0 * 0x1p-23 * value);
+  }
+
+ private:
+  static double largest(dvec4 v) { return std::max({v.x, v.y, v.z, v.w}); }
+
+  const Interpolant& of_;
+  double denominator_error_ = 0.0;
+  dvec4 numerator_error_{0.0};
+};
+
+/// Calls visit(x, y, triangle) for every pixel that something covers, with the last that does.
+template <class Visit>
+void visit_last(const TriangleList& list, Snapping snapping, Visit&& visit) {
+  const Coverage coverage = span_coverage(list, snapping);
+  std::size_t pixel = 0;
+  for (int y = 0; y < list.height; ++y)
+    for (int x = 0; x < list.width; ++x, ++pixel)
+      if (coverage.last[pixel] != 0) visit(x, y, coverage.last[pixel] - 1);
+}
+
+}  // namespace
+
+TrianglePlanes triangle_planes(const std::array<vec4, 3>& clip, int width, int height) {
+  const dvec3 a{clip[0].x, clip[0].y, clip[0].w};
+  const dvec3 b{clip[1].x, clip[1].y, clip[1].w};
+  const dvec3 c{clip[2].x, clip[2].y, clip[2].w};
+  const std::array<dvec3, 3> cofactors{glm::cross(b, c), glm::cross(c, a), glm::cross(a, b)};
+  const double determinant = glm::dot(a, cofactors[0]);
+  TrianglePlanes planes;
+  for (std::size_t i = 0; i < 3; ++i)
+    planes.barycentric_over_w[i] = determinant != 0.0
+                                       ? window_plane(cofactors[i] / determinant, width, height)
+                                       : WindowPlane{1.0 / (a.z + b.z + c.z), 0.0, 0.0};
+  planes.reciprocal_w = combine(planes.barycentric_over_w, dvec3(1.0));
+  planes.depth =
+      combine(planes.barycentric_over_w, {double(clip[0].z), double(clip[1].z), double(clip[2].z)});
+  return planes;
+}
+
+Grid<dvec4> interpolate(const TriangleList& list, const Varyings& varyings, Snapping snapping) {
+  check(list, varyings);
+  Grid<dvec4> values{list.width, list.height, dvec4(std::numeric_limits<double>::quiet_NaN())};
+  visit_last(list, snapping, [&](int x, int y, std::uint32_t triangle) {
+    values(x, y) = value_at(interpolant(list, varyings, triangle), x + 0.5, y + 0.5);
+  });
+  return values;
+}
+
+Grid<double> interpolate_bound(const TriangleList& list, const Varyings& varyings,
+                               Snapping snapping) {
+  check(list, varyings);
+  Grid<double> bounds{list.width, list.height, std::numeric_limits<double>::quiet_NaN()};
+  visit_last(list, snapping, [&](int x, int y, std::uint32_t triangle) {
+    const Interpolant of = interpolant(list, varyings, triangle);
+    bounds(x, y) = ValueBound(of, list, snapping).at(x + 0.5, y + 0.5);
+  });
+  return bounds;
+}
+
+}  // namespace parity::cpu
