@@ -1,0 +1,411 @@
+#pragma once
+
+#include <volk.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <list>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gpu/core/buffer.h"
+#include "gpu/core/commands.h"
+#include "gpu/core/context.h"
+#include "gpu/core/image.h"
+#include "gpu/core/kernel.h"
+#include "gpu/core/raster_pipeline.h"
+#include "gpu/core/shader.h"
+
+// What stands behind the classes of gpu/core: Vulkan's handles. Only gpu/core/*.cpp include this.
+namespace parity::gpu {
+
+/// The name of a result, e.g. "VK_ERROR_DEVICE_LOST".
+std::string result_name(VkResult result);
+
+/// @throws Error  of the kind that fits, naming the call and the result, if the result is an error.
+void check(VkResult result, const char* call);
+
+/// The device, and whether it was given up on: work that never ends runs on it, so that nothing of it
+/// can be destroyed any more.
+struct DeviceLink {
+  VkDevice device = VK_NULL_HANDLE;
+  bool abandoned = false;
+};
+
+/// Owns a handle that a device made. `destroy` is the pointer that volk fills.
+template <typename T, auto* destroy>
+class Owned {
+ public:
+  Owned() = default;
+  Owned(const DeviceLink& link, T handle) : link_(&link), handle_(handle) {}
+  ~Owned() { reset(); }
+  Owned(Owned&& other) noexcept
+      : link_(other.link_), handle_(std::exchange(other.handle_, VK_NULL_HANDLE)) {}
+  Owned& operator=(Owned&& other) noexcept {
+    std::swap(link_, other.link_);
+    std::swap(handle_, other.handle_);
+    return *this;
+  }
+  T get() const { return handle_; }
+  explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
+
+ private:
+  void reset() {
+    if (handle_ != VK_NULL_HANDLE && !link_->abandoned)
+      (*destroy)(link_->device, handle_, nullptr);
+    handle_ = VK_NULL_HANDLE;
+  }
+
+  const DeviceLink* link_ = nullptr;
+  T handle_ = VK_NULL_HANDLE;
+};
+
+using OwnedMemory = Owned<VkDeviceMemory, &vkFreeMemory>;
+using OwnedBuffer = Owned<VkBuffer, &vkDestroyBuffer>;
+using OwnedImage = Owned<VkImage, &vkDestroyImage>;
+using OwnedImageView = Owned<VkImageView, &vkDestroyImageView>;
+using OwnedSampler = Owned<VkSampler, &vkDestroySampler>;
+using OwnedShader = Owned<VkShaderModule, &vkDestroyShaderModule>;
+using OwnedSetLayout = Owned<VkDescriptorSetLayout, &vkDestroyDescriptorSetLayout>;
+using OwnedPipelineLayout = Owned<VkPipelineLayout, &vkDestroyPipelineLayout>;
+using OwnedPipeline = Owned<VkPipeline, &vkDestroyPipeline>;
+using OwnedCommandPool = Owned<VkCommandPool, &vkDestroyCommandPool>;
+using OwnedFence = Owned<VkFence, &vkDestroyFence>;
+using OwnedQueryPool = Owned<VkQueryPool, &vkDestroyQueryPool>;
+using OwnedDescriptorPool = Owned<VkDescriptorPool, &vkDestroyDescriptorPool>;
+
+/// Calls a vkCreate* of the usual form and owns what it made.
+template <typename Handle, typename Create, typename CreateInfo>
+Handle create(const DeviceLink& link, Create function, const CreateInfo& info, const char* call) {
+  using Raw = decltype(std::declval<Handle>().get());
+  Raw raw = VK_NULL_HANDLE;
+  check(function(link.device, &info, nullptr, &raw), call);
+  return Handle(link, raw);
+}
+
+// ---- validation.cpp ----
+
+/// What the validation layer said.
+struct ValidationLog {
+  std::vector<std::string> messages;
+};
+
+/// How the layer reports to `log`.
+VkDebugUtilsMessengerCreateInfoEXT messenger_info(ValidationLog& log);
+
+/// @throws Error  the layer is not installed.
+void require_validation_layer();
+
+// ---- device.cpp ----
+
+/// A Vulkan instance, with the validation layer if there is a log for it.
+class Instance {
+ public:
+  /// @throws Error  no loader, no driver, no layer.
+  explicit Instance(ValidationLog* log);
+  ~Instance();
+  Instance(const Instance&) = delete;
+  Instance& operator=(const Instance&) = delete;
+  VkInstance get() const { return instance_; }
+  std::vector<VkPhysicalDevice> devices() const;
+
+ private:
+  VkInstance instance_ = VK_NULL_HANDLE;
+  VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+};
+
+DeviceInfo describe(VkPhysicalDevice device, int index);
+
+/// Index of the device that the name (or PARITY_DEVICE, or the fastest type) chooses.
+///
+/// @throws Error  no such device, or none that fits.
+int choose_device(const std::vector<DeviceInfo>& devices, const std::string& name);
+
+/// The first queue family with graphics, compute and copies.
+std::optional<std::uint32_t> find_queue_family(VkPhysicalDevice device);
+
+class Device {
+ public:
+  Device(VkPhysicalDevice physical, const DeviceInfo& info);
+  ~Device();
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+  DeviceLink link;
+};
+
+// ---- memory.cpp ----
+
+struct MemoryBlock;
+
+/// A part of a block of device memory.
+struct Allocation {
+  MemoryBlock* block = nullptr;
+  VkDeviceMemory memory = VK_NULL_HANDLE;
+  VkDeviceSize offset = 0;
+  VkDeviceSize bytes = 0;
+  std::byte* mapped = nullptr;  ///< null: the host cannot see it
+};
+
+enum class MemoryUse {
+  fast,     ///< the device's own; the host may not see it
+  shared,   ///< the device's own and seen by the host
+  staging,  ///< the host's own
+};
+
+struct MemoryBlock {
+  OwnedMemory memory;
+  VkDeviceSize bytes = 0;
+  std::uint32_t type = 0;
+  bool for_buffers = false;
+  std::byte* mapped = nullptr;
+  std::map<VkDeviceSize, VkDeviceSize> free;  ///< offset to size
+};
+
+/// Hands out parts of larger allocations: drivers limit how many there are.
+class MemoryPool {
+ public:
+  MemoryPool(const DeviceLink& link, VkPhysicalDevice physical);
+
+  /// @throws Error  (out_of_memory) the heap is smaller than what would then be in use.
+  Allocation allocate(const VkMemoryRequirements& needs, MemoryUse use, bool for_buffers);
+  void free(const Allocation& allocation);
+  std::optional<std::uint32_t> find_type(std::uint32_t allowed, VkMemoryPropertyFlags required,
+                                         VkMemoryPropertyFlags preferred) const;
+
+ private:
+  std::uint32_t choose_type(std::uint32_t allowed, MemoryUse use) const;
+  MemoryBlock& new_block(std::uint32_t type, VkDeviceSize bytes, bool for_buffers);
+
+  const DeviceLink& link_;
+  VkPhysicalDeviceMemoryProperties properties_{};
+  std::list<MemoryBlock> blocks_;
+  std::vector<VkDeviceSize> heap_used_;
+};
+
+/// Owns an allocation of a pool.
+class OwnedAllocation {
+ public:
+  OwnedAllocation() = default;
+  OwnedAllocation(MemoryPool& pool, const Allocation& allocation)
+      : pool_(&pool), allocation_(allocation) {}
+  ~OwnedAllocation() {
+    if (pool_ != nullptr) pool_->free(allocation_);
+  }
+  OwnedAllocation(OwnedAllocation&& other) noexcept
+      : pool_(std::exchange(other.pool_, nullptr)), allocation_(other.allocation_) {}
+  OwnedAllocation& operator=(OwnedAllocation&& other) noexcept {
+    std::swap(pool_, other.pool_);
+    std::swap(allocation_, other.allocation_);
+    return *this;
+  }
+  const Allocation& get() const { return allocation_; }
+
+ private:
+  MemoryPool* pool_ = nullptr;
+  Allocation allocation_;
+};
+
+// ---- submission.cpp ----
+
+/// A VkBuffer with its memory.
+struct MemoryBuffer {
+  OwnedAllocation allocation;  // freed after the buffer
+  OwnedBuffer buffer;
+};
+
+/// What one submission after another uses again: command buffers, fence, queries, descriptor pools.
+class Submission {
+ public:
+  Submission(const DeviceLink& link, std::uint32_t queue_family, double timeout_seconds);
+
+  VkCommandBuffer begin();           ///< for Context::run
+  VkCommandBuffer begin_transfer();  ///< for uploads and downloads, which may happen while recording
+  void submit_and_wait(VkCommandBuffer commands);
+
+  /// Records the clock; returns the number of the reading.
+  std::size_t record_timestamp(VkCommandBuffer commands);
+  std::vector<std::uint64_t> read_timestamps() const;
+
+  /// A set for one dispatch; lives until the next begin().
+  VkDescriptorSet allocate_set(VkDescriptorSetLayout layout);
+
+  bool unfinished() const { return unfinished_; }
+  /// Whether what ran past its time has ended meanwhile.
+  bool finishes_within(double seconds) const;
+
+ private:
+  void make_query_pool(VkCommandBuffer commands);
+
+  const DeviceLink& link_;
+  double timeout_seconds_;
+  VkQueue queue_ = VK_NULL_HANDLE;
+  OwnedCommandPool command_pool_;
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  VkCommandBuffer transfer_ = VK_NULL_HANDLE;
+  OwnedFence fence_;
+  std::vector<OwnedQueryPool> query_pools_;
+  std::size_t timestamps_ = 0;
+  std::vector<OwnedDescriptorPool> descriptor_pools_;
+  std::size_t descriptor_pools_used_ = 0;
+  bool unfinished_ = false;
+  std::string broken_;  ///< why nothing can be submitted any more
+};
+
+// ---- context.cpp ----
+
+struct ContextState {
+  ContextState(const ContextOptions& context_options, std::unique_ptr<ValidationLog> validation_log);
+
+  ContextOptions options;
+  std::unique_ptr<ValidationLog> log;
+  Instance instance;
+  DeviceInfo info;
+  VkPhysicalDevice physical = VK_NULL_HANDLE;
+  VkPhysicalDeviceProperties properties{};
+  std::uint32_t queue_family = 0;
+  double seconds_per_tick = 0;
+  std::uint64_t tick_mask = 0;
+  bool staged = false;  ///< the host cannot see the buffers: bytes go through `staging`
+  std::optional<Device> device;
+  std::optional<MemoryPool> memory;
+  std::optional<Submission> submission;
+  std::optional<OwnedSampler> nearest;  ///< for sampled images without a sampler
+  MemoryBuffer staging;
+  std::list<RawBuffer::State*> zoned;  ///< buffers whose zones are checked after each run
+  std::uint64_t memory_bytes = 0;
+  std::uint64_t peak_memory_bytes = 0;
+  bool recording = false;
+
+  const DeviceLink& link() const { return device->link; }
+  void count_bytes(std::uint64_t bytes);
+};
+
+/// One full memory barrier; what comes before it, of any kind, is finished and visible after it.
+void full_barrier(VkCommandBuffer commands);
+
+// ---- buffer.cpp ----
+
+/// Pages of the host that a buffer lies in, between two that cannot be touched.
+class FencedPages {
+ public:
+  FencedPages() = default;
+  explicit FencedPages(std::size_t bytes);
+  ~FencedPages();
+  FencedPages(FencedPages&& other) noexcept;
+  FencedPages& operator=(FencedPages&& other) noexcept;
+  std::byte* data() const { return data_; }
+  std::size_t bytes() const { return bytes_; }
+  void leak() { data_ = nullptr; }
+
+ private:
+  std::byte* data_ = nullptr;
+  std::size_t bytes_ = 0;
+};
+
+struct RawBuffer::State {
+  explicit State(ContextState& state) : context(state) {}
+  ~State();
+  ContextState& context;
+  FencedPages pages;
+  OwnedMemory imported;
+  MemoryBuffer memory;
+  VkBuffer buffer = VK_NULL_HANDLE;
+  std::byte* mapped = nullptr;  ///< of the first byte of the VkBuffer; null: staged
+  std::size_t start = 0;        ///< of the elements in the VkBuffer
+  std::size_t bytes = 0;        ///< of the elements
+  std::size_t total = 0;        ///< of the VkBuffer
+  std::uint64_t address = 0;    ///< of the elements
+  std::uint64_t counted = 0;    ///< in ContextState::memory_bytes
+  std::optional<std::list<RawBuffer::State*>::iterator> zone_entry;
+};
+
+/// A VkBuffer of our own use.
+MemoryBuffer make_buffer(ContextState& context, std::size_t bytes, MemoryUse use);
+
+/// @throws Error  (broken_guard) naming the first buffer that was written past its end or start.
+void check_zones(ContextState& context);
+
+// ---- image.cpp ----
+
+VkFormat vulkan_format(Format format);
+bool is_depth(Format format);
+
+struct Image::State {
+  explicit State(ContextState& state) : context(state) {}
+  ~State();
+  ContextState& context;
+  ImageOptions options;
+  OwnedAllocation memory;
+  OwnedImage image;
+  OwnedImageView view;                  ///< all levels
+  std::vector<OwnedImageView> levels;   ///< one level each
+  VkImageUsageFlags usage = 0;
+  VkFormatFeatureFlags features = 0;
+  std::uint64_t counted = 0;
+};
+
+struct ImageSampler::State {
+  OwnedSampler sampler;
+};
+
+// ---- kernel.cpp ----
+
+OwnedShader make_shader(ContextState& context, const ShaderCode& code);
+
+/// Specialization constants in Vulkan's form; points into itself.
+struct SpecializationData {
+  explicit SpecializationData(const std::vector<Specialization>& specializations);
+  SpecializationData(const SpecializationData&) = delete;
+  SpecializationData& operator=(const SpecializationData&) = delete;
+  std::vector<VkSpecializationMapEntry> entries;
+  std::vector<std::uint32_t> values;
+  VkSpecializationInfo info{};
+};
+
+/// @throws Error  the push constants are not as large as Args, or larger than the device's.
+void check_args(const ContextState& context, const char* name, std::uint32_t shader_bytes,
+                std::size_t args_bytes);
+
+struct RawKernel::State {
+  std::string name;
+  ShaderReflection reflection;
+  std::uint32_t local_size[3] = {1, 1, 1};
+  OwnedSetLayout set_layout;  ///< none: no images
+  OwnedPipelineLayout layout;
+  OwnedPipeline pipeline;
+  std::uint32_t args_bytes = 0;
+};
+
+// ---- raster_pipeline.cpp ----
+
+struct RawRasterPipeline::State {
+  std::string name;
+  RasterOptions options;
+  OwnedPipelineLayout layout;
+  OwnedPipeline pipeline;
+  std::uint32_t args_bytes = 0;
+};
+
+// ---- commands.cpp ----
+
+struct RenderPass::State {
+  VkCommandBuffer commands = VK_NULL_HANDLE;
+  std::vector<Format> colors;
+  std::optional<Format> depth;
+  int samples = 1;
+  std::optional<std::pair<Culling, bool>> culling;
+};
+
+struct Commands::State {
+  ContextState& context;
+  VkCommandBuffer commands = VK_NULL_HANDLE;
+  std::vector<std::string> passes;
+  bool rendering = false;
+};
+
+}  // namespace parity::gpu
