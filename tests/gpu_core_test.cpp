@@ -21,13 +21,15 @@ std::vector<float> counting(std::size_t count) {
   return values;
 }
 
-std::vector<float> add_on_device(gpu::Context& context, const std::vector<float>& values, float addend) {
+std::vector<float> add_on_device(gpu::Context& context, const std::vector<float>& values,
+                                 float addend) {
   const Kernel<TestAddArgs> kernel(context, gpu::shaders::core_test_add_comp);
   const Buffer<float> in(context, values);
   const Buffer<float> out(context, values.size());
   const auto count = static_cast<std::uint32_t>(values.size());
   context.run([&](Commands& commands) {
-    commands.dispatch(kernel, {.x = count}, {.values = in, .results = out, .count = count, .addend = addend});
+    commands.dispatch(kernel, {.x = count},
+                      {.values = in, .results = out, .count = count, .addend = addend});
   });
   return out.read();
 }
@@ -46,7 +48,8 @@ struct Triangle {
 };
 
 /// A picture of one triangle over black.
-std::vector<vec4> draw(gpu::Context& context, const Triangle& triangle, gpu::Culling culling, bool mirrored) {
+std::vector<vec4> draw(gpu::Context& context, const Triangle& triangle, gpu::Culling culling,
+                       bool mirrored) {
   const gpu::Image image(context, {.width = 8, .height = 8, .format = gpu::Format::rgba32_float});
   const gpu::RasterPipeline<TestTriangleArgs> pipeline(
       context, gpu::shaders::core_test_triangle_vert, gpu::shaders::core_test_triangle_frag,
@@ -55,10 +58,11 @@ std::vector<vec4> draw(gpu::Context& context, const Triangle& triangle, gpu::Cul
   const Buffer<vec4> colors(context, std::vector<vec4>(3, triangle.color));
   const Buffer<vec4> texels(context, 64);
   context.run([&](Commands& commands) {
-    commands.render({.colors = {{.image = &image, .clear = {{0, 0, 0, 0}}}}, .depth = {}}, [&](gpu::RenderPass& pass) {
-      pass.set_culling(culling, mirrored);
-      pass.draw(pipeline, {.positions = positions, .colors = colors}, 3);
-    });
+    commands.render({.colors = {{.image = &image, .clear = {{0, 0, 0, 0}}}}, .depth = {}},
+                    [&](gpu::RenderPass& pass) {
+                      pass.set_culling(culling, mirrored);
+                      pass.draw(pipeline, {.positions = positions, .colors = colors}, 3);
+                    });
     commands.copy(image, texels);
   });
   return texels.read();
@@ -68,13 +72,15 @@ std::vector<vec4> draw(gpu::Context& context, const Triangle& triangle, gpu::Cul
 const Triangle counter_clockwise{{{-1, -1, 0, 1}, {-1, 1, 0, 1}, {1, -1, 0, 1}}, {1, 2, 3, 4}};
 
 TEST(GpuCore, DrawsATriangleWithRowZeroOnTop) {
-  const std::vector<vec4> texels = draw(test_context(), counter_clockwise, gpu::Culling::none, false);
+  const std::vector<vec4> texels =
+      draw(test_context(), counter_clockwise, gpu::Culling::none, false);
   EXPECT_EQ(texels[0], vec4(1, 2, 3, 4));
   EXPECT_EQ(texels[63], vec4(0));
 }
 
 TEST(GpuCore, CounterClockwiseTrianglesAreFront) {
-  EXPECT_EQ(draw(test_context(), counter_clockwise, gpu::Culling::back, false)[0], vec4(1, 2, 3, 4));
+  EXPECT_EQ(draw(test_context(), counter_clockwise, gpu::Culling::back, false)[0],
+            vec4(1, 2, 3, 4));
   EXPECT_EQ(draw(test_context(), counter_clockwise, gpu::Culling::front, false)[0], vec4(0));
   EXPECT_EQ(draw(test_context(), counter_clockwise, gpu::Culling::back, true)[0], vec4(0));
 }

@@ -48,20 +48,24 @@ void copy_between(ContextState& context, VkBuffer from, std::size_t from_offset,
 }
 
 /// Bytes of the VkBuffer, from its start, through the staging buffer, a part at a time.
-void upload(RawBuffer::State& state, const std::byte* source, std::size_t offset, std::size_t bytes) {
+void upload(RawBuffer::State& state, const std::byte* source, std::size_t offset,
+            std::size_t bytes) {
   const Allocation& staging = state.context.staging.allocation.get();
   for (std::size_t done = 0; done < bytes; done += staging.bytes) {
     const std::size_t part = std::min<std::size_t>(staging.bytes, bytes - done);
     std::memcpy(staging.mapped, source + done, part);
-    copy_between(state.context, state.context.staging.buffer.get(), 0, state.buffer, offset + done, part);
+    copy_between(state.context, state.context.staging.buffer.get(), 0, state.buffer, offset + done,
+                 part);
   }
 }
 
-void download(const RawBuffer::State& state, std::byte* target, std::size_t offset, std::size_t bytes) {
+void download(const RawBuffer::State& state, std::byte* target, std::size_t offset,
+              std::size_t bytes) {
   const Allocation& staging = state.context.staging.allocation.get();
   for (std::size_t done = 0; done < bytes; done += staging.bytes) {
     const std::size_t part = std::min<std::size_t>(staging.bytes, bytes - done);
-    copy_between(state.context, state.buffer, offset + done, state.context.staging.buffer.get(), 0, part);
+    copy_between(state.context, state.buffer, offset + done, state.context.staging.buffer.get(), 0,
+                 part);
     std::memcpy(target + done, staging.mapped, part);
   }
 }
@@ -104,12 +108,14 @@ void import_pages(RawBuffer::State& state) {
       vkGetDeviceProcAddr(context.link().device, "vkGetMemoryHostPointerPropertiesEXT"));
   VkMemoryHostPointerPropertiesEXT properties{};
   properties.sType = VK_STRUCTURE_TYPE_MEMORY_HOST_POINTER_PROPERTIES_EXT;
-  check(pointer_properties(context.link().device, VK_EXTERNAL_MEMORY_HANDLE_TYPE_HOST_ALLOCATION_BIT_EXT,
+  check(pointer_properties(context.link().device,
+                           VK_EXTERNAL_MEMORY_HANDLE_TYPE_HOST_ALLOCATION_BIT_EXT,
                            state.pages.data(), &properties),
         "vkGetMemoryHostPointerPropertiesEXT");
   const std::optional<std::uint32_t> type =
       context.memory->find_type(needs.memoryTypeBits & properties.memoryTypeBits, 0, 0);
-  if (!type) throw Error(ErrorKind::missing_feature, "the device cannot use host memory for buffers");
+  if (!type)
+    throw Error(ErrorKind::missing_feature, "the device cannot use host memory for buffers");
 
   VkImportMemoryHostPointerInfoEXT import{};
   import.sType = VK_STRUCTURE_TYPE_IMPORT_MEMORY_HOST_POINTER_INFO_EXT;
@@ -124,22 +130,26 @@ void import_pages(RawBuffer::State& state) {
   allocate_info.pNext = &flags;
   allocate_info.allocationSize = state.total;
   allocate_info.memoryTypeIndex = *type;
-  state.imported = create<OwnedMemory>(context.link(), vkAllocateMemory, allocate_info, "vkAllocateMemory");
+  state.imported =
+      create<OwnedMemory>(context.link(), vkAllocateMemory, allocate_info, "vkAllocateMemory");
   check(vkBindBufferMemory(context.link().device, state.buffer, state.imported.get(), 0),
         "vkBindBufferMemory");
   state.mapped = state.pages.data();
 }
 
 bool is_poison(const std::byte* bytes, std::size_t count) {
-  return std::all_of(bytes, bytes + count, [](std::byte byte) { return byte == std::byte{poison}; });
+  return std::all_of(bytes, bytes + count,
+                     [](std::byte byte) { return byte == std::byte{poison}; });
 }
 
 }  // namespace
 
 FencedPages::FencedPages(std::size_t bytes) : bytes_(bytes) {
   const std::size_t page = page_bytes();
-  void* all = mmap(nullptr, bytes + 2 * page, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (all == MAP_FAILED) throw Error(ErrorKind::out_of_memory, "mmap: no pages for a fenced buffer");
+  void* all = mmap(nullptr, bytes + 2 * page, PROT_NONE,
+                   MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (all == MAP_FAILED)
+    throw Error(ErrorKind::out_of_memory, "mmap: no pages for a fenced buffer");
   data_ = static_cast<std::byte*>(all) + page;
   if (mprotect(data_, bytes, PROT_READ | PROT_WRITE) == 0) return;
   munmap(all, bytes + 2 * page);
@@ -238,8 +248,9 @@ void check_zones(ContextState& context) {
     }
     const bool before = !is_poison(bytes, zone_bytes);
     if (before || !is_poison(bytes + end, state->total - end))
-      throw Error(ErrorKind::broken_guard, "something wrote " + std::string(before ? "before the start" : "past the end") +
-                                               " of a buffer of " + std::to_string(state->bytes) + " bytes");
+      throw Error(ErrorKind::broken_guard,
+                  "something wrote " + std::string(before ? "before the start" : "past the end") +
+                      " of a buffer of " + std::to_string(state->bytes) + " bytes");
   }
 }
 

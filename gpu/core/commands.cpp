@@ -36,19 +36,23 @@ VkImageSubresourceLayers layers(const ImageOptions& options, int level) {
 }
 
 void check_level(const Image& image, int level, const char* call) {
-  require(level >= 0 && level < image.options().levels,
-          std::string(call) + ": level " + std::to_string(level) + " of " +
-              std::to_string(image.options().levels));
+  require(level >= 0 && level < image.options().levels, std::string(call) + ": level " +
+                                                            std::to_string(level) + " of " +
+                                                            std::to_string(image.options().levels));
 }
 
-VkBufferImageCopy whole_level(const Image& image, const RawBuffer& buffer, int level, const char* call) {
+VkBufferImageCopy whole_level(const Image& image, const RawBuffer& buffer, int level,
+                              const char* call) {
   const ImageOptions& options = image.options();
   check_level(image, level, call);
-  require(options.samples == 1, std::string(call) + ": the image has several samples; resolve it first");
+  require(options.samples == 1,
+          std::string(call) + ": the image has several samples; resolve it first");
   const VkExtent3D extent = level_extent(options, level);
-  const std::size_t needed = std::size_t{extent.width} * extent.height * texel_bytes(options.format);
+  const std::size_t needed =
+      std::size_t{extent.width} * extent.height * texel_bytes(options.format);
   require(buffer.bytes() >= needed, std::string(call) + ": " + std::to_string(buffer.bytes()) +
-                                        " bytes of buffer, " + std::to_string(needed) + " of texels");
+                                        " bytes of buffer, " + std::to_string(needed) +
+                                        " of texels");
   VkBufferImageCopy region{};
   region.bufferOffset = buffer.state()->start;
   region.imageSubresource = layers(options, level);
@@ -72,7 +76,8 @@ VkDescriptorImageInfo image_info(const RawKernel::State& kernel, const ContextSt
   VkDescriptorImageInfo info{};
   info.imageLayout = VK_IMAGE_LAYOUT_GENERAL;
   if (sampled) {
-    info.sampler = bound.sampler != nullptr ? bound.sampler->state()->sampler.get() : context.nearest->get();
+    info.sampler =
+        bound.sampler != nullptr ? bound.sampler->state()->sampler.get() : context.nearest->get();
     info.imageView = image.view.get();
   } else {
     check_level(*bound.image, bound.level, kernel.name.c_str());
@@ -102,17 +107,17 @@ void bind_images(const Commands::State& state, const RawKernel::State& kernel,
     write.pImageInfo = &infos[i];
     writes.push_back(write);
   }
-  vkUpdateDescriptorSets(state.context.link().device, static_cast<std::uint32_t>(writes.size()), writes.data(),
-                         0, nullptr);
-  vkCmdBindDescriptorSets(state.commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout.get(), 0, 1, &set, 0,
-                          nullptr);
+  vkUpdateDescriptorSets(state.context.link().device, static_cast<std::uint32_t>(writes.size()),
+                         writes.data(), 0, nullptr);
+  vkCmdBindDescriptorSets(state.commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout.get(), 0, 1,
+                          &set, 0, nullptr);
 }
 
 void bind_kernel(const Commands::State& state, const RawKernel::State& kernel, const void* args) {
   vkCmdBindPipeline(state.commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline.get());
   if (kernel.args_bytes > 0)
-    vkCmdPushConstants(state.commands, kernel.layout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, kernel.args_bytes,
-                       args);
+    vkCmdPushConstants(state.commands, kernel.layout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                       kernel.args_bytes, args);
 }
 
 void check_target(const Image* image, const ImageOptions*& first) {
@@ -138,41 +143,48 @@ VkRenderingAttachmentInfo color_attachment(const ColorTarget& target) {
   require((target.image->state()->usage & VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT) != 0,
           "Commands::render: a colour target's format cannot be drawn to");
   VkRenderingAttachmentInfo info = attachment(*target.image, target.clear.has_value());
-  if (target.clear) std::memcpy(&info.clearValue.color, target.clear->data(), sizeof(*target.clear));
+  if (target.clear)
+    std::memcpy(&info.clearValue.color, target.clear->data(), sizeof(*target.clear));
   if (target.resolve == nullptr) return info;
   const ImageOptions& from = target.image->options();
   const ImageOptions& to = target.resolve->options();
-  require(from.samples > 1 && to.samples == 1 && from.format == to.format && from.width == to.width &&
-              from.height == to.height,
+  require(from.samples > 1 && to.samples == 1 && from.format == to.format &&
+              from.width == to.width && from.height == to.height,
           "Commands::render: the resolve target must have the size and format, and one sample");
-  info.resolveMode =
-      from.format == Format::r32_uint ? VK_RESOLVE_MODE_SAMPLE_ZERO_BIT : VK_RESOLVE_MODE_AVERAGE_BIT;
+  info.resolveMode = from.format == Format::r32_uint ? VK_RESOLVE_MODE_SAMPLE_ZERO_BIT
+                                                     : VK_RESOLVE_MODE_AVERAGE_BIT;
   info.resolveImageView = target.resolve->state()->levels[0].get();
   info.resolveImageLayout = VK_IMAGE_LAYOUT_GENERAL;
   return info;
 }
 
 void set_viewport(VkCommandBuffer commands, const ImageOptions& size) {
-  const VkViewport viewport{0, 0, static_cast<float>(size.width), static_cast<float>(size.height), 0, 1};
+  const VkViewport viewport{0, 0, static_cast<float>(size.width), static_cast<float>(size.height),
+                            0, 1};
   const VkRect2D scissor{{0, 0}, level_extent(size, 0).width, level_extent(size, 0).height};
   vkCmdSetViewport(commands, 0, 1, &viewport);
   vkCmdSetScissor(commands, 0, 1, &scissor);
 }
 
-void bind_raster(RenderPass::State& pass, const RawRasterPipeline::State& pipeline, const void* args) {
+void bind_raster(RenderPass::State& pass, const RawRasterPipeline::State& pipeline,
+                 const void* args) {
   require(pipeline.options.colors == pass.colors && pipeline.options.depth == pass.depth &&
               pipeline.options.samples == pass.samples,
           pipeline.name + ": formats or samples are not those of the render targets");
-  const auto [culling, mirrored] = pass.culling.value_or(std::pair(pipeline.options.culling, false));
+  const auto [culling, mirrored] =
+      pass.culling.value_or(std::pair(pipeline.options.culling, false));
   vkCmdBindPipeline(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.pipeline.get());
   vkCmdSetCullMode(pass.commands, culling == Culling::none   ? VK_CULL_MODE_NONE
                                   : culling == Culling::back ? VK_CULL_MODE_BACK_BIT
                                                              : VK_CULL_MODE_FRONT_BIT);
-  // Vulkan's sign of the area already takes y as pointing down: counter-clockwise is as one sees it.
-  vkCmdSetFrontFace(pass.commands, mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
+  // Vulkan's sign of the area already takes y as pointing down: counter-clockwise is as one sees
+  // it.
+  vkCmdSetFrontFace(pass.commands,
+                    mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
   if (pipeline.args_bytes > 0)
     vkCmdPushConstants(pass.commands, pipeline.layout.get(),
-                       VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0, pipeline.args_bytes, args);
+                       VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                       pipeline.args_bytes, args);
 }
 
 }  // namespace
@@ -205,10 +217,12 @@ void Commands::dispatch_raw(const RawKernel& kernel, Threads threads, const void
   const VkPhysicalDeviceLimits& limits = state_.context.properties.limits;
   std::uint32_t groups[3] = {};
   for (int axis = 0; axis < 3; ++axis) {
-    groups[axis] = wanted[axis] / state.local_size[axis] + (wanted[axis] % state.local_size[axis] != 0 ? 1 : 0);
+    groups[axis] = wanted[axis] / state.local_size[axis] +
+                   (wanted[axis] % state.local_size[axis] != 0 ? 1 : 0);
     require(groups[axis] <= limits.maxComputeWorkGroupCount[axis],
-            state.name + ": " + std::to_string(groups[axis]) + " workgroups on axis " + std::to_string(axis) +
-                ", the device takes " + std::to_string(limits.maxComputeWorkGroupCount[axis]));
+            state.name + ": " + std::to_string(groups[axis]) + " workgroups on axis " +
+                std::to_string(axis) + ", the device takes " +
+                std::to_string(limits.maxComputeWorkGroupCount[axis]));
   }
   begin_command(state_);
   bind_images(state_, state, images);
@@ -216,8 +230,8 @@ void Commands::dispatch_raw(const RawKernel& kernel, Threads threads, const void
   vkCmdDispatch(state_.commands, groups[0], groups[1], groups[2]);
 }
 
-void Commands::dispatch_indirect_raw(const RawKernel& kernel, const RawBuffer& groups, std::size_t offset,
-                                     const void* args, std::size_t) {
+void Commands::dispatch_indirect_raw(const RawKernel& kernel, const RawBuffer& groups,
+                                     std::size_t offset, const void* args, std::size_t) {
   const RawKernel::State& state = *kernel.state();
   require(!state.set_layout, state.name + ": an indirect dispatch binds no images");
   require(offset + 3 * sizeof(std::uint32_t) <= groups.bytes(),
@@ -227,7 +241,8 @@ void Commands::dispatch_indirect_raw(const RawKernel& kernel, const RawBuffer& g
   vkCmdDispatchIndirect(state_.commands, groups.state()->buffer, groups.state()->start + offset);
 }
 
-void Commands::render(const RenderTargets& targets, const std::function<void(RenderPass&)>& record) {
+void Commands::render(const RenderTargets& targets,
+                      const std::function<void(RenderPass&)>& record) {
   const ImageOptions* size = nullptr;
   std::vector<VkRenderingAttachmentInfo> colors;
   RenderPass::State pass{.commands = state_.commands, .colors = {}, .depth = {}, .culling = {}};
@@ -239,7 +254,8 @@ void Commands::render(const RenderTargets& targets, const std::function<void(Ren
   VkRenderingAttachmentInfo depth{};
   if (targets.depth) {
     check_target(targets.depth->image, size);
-    require(is_depth(targets.depth->image->options().format), "Commands::render: the depth target is no depth image");
+    require(is_depth(targets.depth->image->options().format),
+            "Commands::render: the depth target is no depth image");
     depth = attachment(*targets.depth->image, targets.depth->clear.has_value());
     depth.clearValue.depthStencil = {targets.depth->clear.value_or(0), 0};
     pass.depth = targets.depth->image->options().format;
@@ -264,11 +280,13 @@ void Commands::render(const RenderTargets& targets, const std::function<void(Ren
   vkCmdEndRendering(state_.commands);
 }
 
-void RenderPass::set_culling(Culling culling, bool mirrored) { state_.culling = std::pair(culling, mirrored); }
+void RenderPass::set_culling(Culling culling, bool mirrored) {
+  state_.culling = std::pair(culling, mirrored);
+}
 
 void RenderPass::draw_raw(const RawRasterPipeline& pipeline, const void* args, std::size_t,
-                          std::uint32_t vertex_count, std::uint32_t instance_count, std::uint32_t first_vertex,
-                          std::uint32_t first_instance) {
+                          std::uint32_t vertex_count, std::uint32_t instance_count,
+                          std::uint32_t first_vertex, std::uint32_t first_instance) {
   bind_raster(state_, *pipeline.state(), args);
   vkCmdDraw(state_.commands, vertex_count, instance_count, first_vertex, first_instance);
 }
@@ -280,7 +298,8 @@ void RenderPass::draw_indexed_raw(const RawRasterPipeline& pipeline, const void*
     require(draw.first_index <= index_count && draw.index_count <= index_count - draw.first_index,
             pipeline.state()->name + ": a draw reads past the indices");
   bind_raster(state_, *pipeline.state(), args);
-  vkCmdBindIndexBuffer(state_.commands, indices.state()->buffer, indices.state()->start, VK_INDEX_TYPE_UINT32);
+  vkCmdBindIndexBuffer(state_.commands, indices.state()->buffer, indices.state()->start,
+                       VK_INDEX_TYPE_UINT32);
   for (const IndexedDraw& draw : draws)
     vkCmdDrawIndexed(state_.commands, draw.index_count, draw.instance_count, draw.first_index,
                      draw.vertex_offset, draw.first_instance);
@@ -294,7 +313,8 @@ void Commands::copy_raw(const RawBuffer& from, const RawBuffer& to, std::size_t 
           "Commands::copy: writes past the end of the target");
   if (bytes == 0) return;
   begin_command(state_);
-  const VkBufferCopy region{from.state()->start + from_offset, to.state()->start + to_offset, bytes};
+  const VkBufferCopy region{from.state()->start + from_offset, to.state()->start + to_offset,
+                            bytes};
   vkCmdCopyBuffer(state_.commands, from.state()->buffer, to.state()->buffer, 1, &region);
 }
 
@@ -313,11 +333,12 @@ void Commands::copy_to_image_raw(const RawBuffer& from, const Image& to, int lev
 }
 
 void Commands::fill_raw(const RawBuffer& buffer, std::uint32_t value) {
-  require(buffer.bytes() % 4 == 0, "Commands::fill: " + std::to_string(buffer.bytes()) +
-                                       " bytes, must be a multiple of 4");
+  require(buffer.bytes() % 4 == 0,
+          "Commands::fill: " + std::to_string(buffer.bytes()) + " bytes, must be a multiple of 4");
   if (buffer.bytes() == 0) return;
   begin_command(state_);
-  vkCmdFillBuffer(state_.commands, buffer.state()->buffer, buffer.state()->start, buffer.bytes(), value);
+  vkCmdFillBuffer(state_.commands, buffer.state()->buffer, buffer.state()->start, buffer.bytes(),
+                  value);
 }
 
 void Commands::blit_level(const Image& image, int from_level, int to_level) {
@@ -325,16 +346,20 @@ void Commands::blit_level(const Image& image, int from_level, int to_level) {
   check_level(image, to_level, "Commands::blit_level");
   require(from_level != to_level, "Commands::blit_level: from a level to itself");
   const ImageOptions& options = image.options();
-  constexpr VkFormatFeatureFlags needed = VK_FORMAT_FEATURE_BLIT_SRC_BIT | VK_FORMAT_FEATURE_BLIT_DST_BIT |
+  constexpr VkFormatFeatureFlags needed = VK_FORMAT_FEATURE_BLIT_SRC_BIT |
+                                          VK_FORMAT_FEATURE_BLIT_DST_BIT |
                                           VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
-  require((image.state()->features & needed) == needed, "Commands::blit_level: the format cannot be filtered");
+  require((image.state()->features & needed) == needed,
+          "Commands::blit_level: the format cannot be filtered");
   VkImageBlit region{};
   const VkExtent3D from = level_extent(options, from_level);
   const VkExtent3D to = level_extent(options, to_level);
   region.srcSubresource = layers(options, from_level);
-  region.srcOffsets[1] = {static_cast<std::int32_t>(from.width), static_cast<std::int32_t>(from.height), 1};
+  region.srcOffsets[1] = {static_cast<std::int32_t>(from.width),
+                          static_cast<std::int32_t>(from.height), 1};
   region.dstSubresource = layers(options, to_level);
-  region.dstOffsets[1] = {static_cast<std::int32_t>(to.width), static_cast<std::int32_t>(to.height), 1};
+  region.dstOffsets[1] = {static_cast<std::int32_t>(to.width), static_cast<std::int32_t>(to.height),
+                          1};
   begin_command(state_);
   vkCmdBlitImage(state_.commands, image.state()->image.get(), VK_IMAGE_LAYOUT_GENERAL,
                  image.state()->image.get(), VK_IMAGE_LAYOUT_GENERAL, 1, &region, VK_FILTER_LINEAR);

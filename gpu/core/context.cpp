@@ -38,7 +38,8 @@ void find_clock(ContextState& state) {
 Timing timing_of(const ContextState& state, const std::vector<std::uint64_t>& ticks,
                  const std::vector<std::string>& passes) {
   const auto seconds = [&](std::size_t from, std::size_t to) {
-    return static_cast<double>((ticks[to] - ticks[from]) & state.tick_mask) * state.seconds_per_tick;
+    return static_cast<double>((ticks[to] - ticks[from]) & state.tick_mask) *
+           state.seconds_per_tick;
   };
   Timing timing;
   timing.seconds = seconds(0, ticks.size() - 1);
@@ -54,14 +55,15 @@ ContextState::ContextState(const ContextOptions& context_options,
     : options(context_options), log(std::move(validation_log)), instance(log.get()) {
   const std::vector<VkPhysicalDevice> physicals = instance.devices();
   std::vector<DeviceInfo> infos;
-  for (VkPhysicalDevice each : physicals) infos.push_back(describe(each, static_cast<int>(infos.size())));
+  for (VkPhysicalDevice each : physicals)
+    infos.push_back(describe(each, static_cast<int>(infos.size())));
   const auto chosen = static_cast<std::size_t>(choose_device(infos, options.device));
   info = infos[chosen];
   physical = physicals[chosen];
   if (options.guard == Guard::fences && !info.host_memory_import)
-    throw Error(ErrorKind::missing_feature, "device " + info.name + " cannot fence buffers: it lacks " +
-                                                VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME +
-                                                " or is no CPU");
+    throw Error(ErrorKind::missing_feature,
+                "device " + info.name + " cannot fence buffers: it lacks " +
+                    VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME + " or is no CPU");
   vkGetPhysicalDeviceProperties(physical, &properties);
   queue_family = find_queue_family(physical).value();
   find_clock(*this);

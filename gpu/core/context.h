@@ -51,7 +51,8 @@ struct ContextOptions {
       false;  ///< core + synchronization + GPU-assisted; throws if the layer is missing
   Guard guard = Guard::none;
   double timeout_seconds = 120;  ///< for one submission
-  bool force_staging = false;    ///< bytes go through a staging buffer, as on discrete GPUs; for tests
+  bool force_staging =
+      false;  ///< bytes go through a staging buffer, as on discrete GPUs; for tests
 };
 
 /// How long the device took.

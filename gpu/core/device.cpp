@@ -22,10 +22,12 @@ std::string version_text(std::uint32_t version) {
 
 void load_loader() {
   if (volkInitialize() != VK_SUCCESS)
-    throw Error(ErrorKind::no_driver, "no Vulkan loader (Debian: install libvulkan1 and mesa-vulkan-drivers)");
+    throw Error(ErrorKind::no_driver,
+                "no Vulkan loader (Debian: install libvulkan1 and mesa-vulkan-drivers)");
   if (volkGetInstanceVersion() < api_version)
     throw Error(ErrorKind::no_driver, "the Vulkan loader is version " +
-                                          version_text(volkGetInstanceVersion()) + ", must be 1.3 or later");
+                                          version_text(volkGetInstanceVersion()) +
+                                          ", must be 1.3 or later");
 }
 
 /// All calls go through the loader, which serves any instance and device, so once is enough.
@@ -43,7 +45,8 @@ struct Features {
   }
   Features(const Features&) = delete;
   Features& operator=(const Features&) = delete;
-  VkPhysicalDeviceFeatures2 core{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = nullptr, .features = {}};
+  VkPhysicalDeviceFeatures2 core{
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = nullptr, .features = {}};
   VkPhysicalDeviceVulkan11Features v11{};
   VkPhysicalDeviceVulkan12Features v12{};
   VkPhysicalDeviceVulkan13Features v13{};
@@ -70,11 +73,16 @@ std::vector<std::string> extensions_of(VkPhysicalDevice device) {
 
 const char* type_name(VkPhysicalDeviceType type) {
   switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return "discrete";
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return "integrated";
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return "virtual";
-    case VK_PHYSICAL_DEVICE_TYPE_CPU: return "cpu";
-    default: return "other";
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return "discrete";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return "integrated";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return "virtual";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return "cpu";
+    default:
+      return "other";
   }
 }
 
@@ -116,9 +124,9 @@ void describe_versioned(VkPhysicalDevice device, DeviceInfo& info) {
   info.is_mesa_software = driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE;
   info.is_swiftshader = driver.driverID == VK_DRIVER_ID_GOOGLE_SWIFTSHADER;
   info.subgroup_size = static_cast<int>(subgroup.subgroupSize);
-  info.max_buffer_bytes =
-      std::min({static_cast<std::uint64_t>(sizes.maxBufferSize),
-                static_cast<std::uint64_t>(allocations.maxMemoryAllocationSize), info.memory_bytes});
+  info.max_buffer_bytes = std::min({static_cast<std::uint64_t>(sizes.maxBufferSize),
+                                    static_cast<std::uint64_t>(allocations.maxMemoryAllocationSize),
+                                    info.memory_bytes});
 }
 
 std::uint64_t largest_heap(VkPhysicalDevice device) {
@@ -186,7 +194,9 @@ Instance::Instance(ValidationLog* log) {
   }
   const VkResult result = vkCreateInstance(&info, nullptr, &instance_);
   if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
-    throw Error(ErrorKind::no_driver, "no Vulkan driver (Debian: install mesa-vulkan-drivers; VK_DRIVER_FILES names others)");
+    throw Error(
+        ErrorKind::no_driver,
+        "no Vulkan driver (Debian: install mesa-vulkan-drivers; VK_DRIVER_FILES names others)");
   check(result, "vkCreateInstance");
   load_functions(instance_);
   if (log == nullptr) return;
@@ -208,10 +218,12 @@ std::vector<VkPhysicalDevice> Instance::devices() const {
   std::uint32_t count = 0;
   check(vkEnumeratePhysicalDevices(instance_, &count, nullptr), "vkEnumeratePhysicalDevices");
   std::vector<VkPhysicalDevice> devices(count);
-  check(vkEnumeratePhysicalDevices(instance_, &count, devices.data()), "vkEnumeratePhysicalDevices");
+  check(vkEnumeratePhysicalDevices(instance_, &count, devices.data()),
+        "vkEnumeratePhysicalDevices");
   devices.resize(count);
   if (devices.empty())
-    throw Error(ErrorKind::no_driver, "no Vulkan driver shows a device (Debian: install mesa-vulkan-drivers)");
+    throw Error(ErrorKind::no_driver,
+                "no Vulkan driver shows a device (Debian: install mesa-vulkan-drivers)");
   return devices;
 }
 
@@ -249,7 +261,8 @@ DeviceInfo describe(VkPhysicalDevice device, int index) {
   const std::vector<std::string> extensions = extensions_of(device);
   info.host_memory_import =
       std::find(extensions.begin(), extensions.end(), VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME) !=
-          extensions.end() && properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+          extensions.end() &&
+      properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
   if (properties.apiVersion >= api_version) describe_versioned(device, info);
   return info;
 }

@@ -8,7 +8,8 @@ namespace parity::gpu {
 namespace {
 
 /// What the image may be used for, as far as its format allows.
-VkImageUsageFlags usage_of(VkFormatFeatureFlags features, bool multisampled, bool store_multisampled) {
+VkImageUsageFlags usage_of(VkFormatFeatureFlags features, bool multisampled,
+                           bool store_multisampled) {
   const std::pair<VkFormatFeatureFlags, VkImageUsageFlags> uses[] = {
       {VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT, VK_IMAGE_USAGE_SAMPLED_BIT},
       {VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT, VK_IMAGE_USAGE_STORAGE_BIT},
@@ -25,7 +26,8 @@ VkImageUsageFlags usage_of(VkFormatFeatureFlags features, bool multisampled, boo
 
 std::string text(const ImageOptions& options) {
   return std::to_string(options.width) + "x" + std::to_string(options.height) + ", " +
-         std::to_string(options.levels) + " levels, " + std::to_string(options.samples) + " samples";
+         std::to_string(options.levels) + " levels, " + std::to_string(options.samples) +
+         " samples";
 }
 
 void check_sizes(const ImageOptions& options) {
@@ -33,8 +35,8 @@ void check_sizes(const ImageOptions& options) {
   int most_levels = 1;
   while (longest >> most_levels > 0) ++most_levels;
   const bool power_of_two = options.samples > 0 && (options.samples & (options.samples - 1)) == 0;
-  if (options.width < 1 || options.height < 1 || options.levels < 1 || options.levels > most_levels ||
-      !power_of_two || (options.samples > 1 && options.levels > 1))
+  if (options.width < 1 || options.height < 1 || options.levels < 1 ||
+      options.levels > most_levels || !power_of_two || (options.samples > 1 && options.levels > 1))
     throw std::invalid_argument("Image: no such image: " + text(options));
 }
 
@@ -45,8 +47,9 @@ bool device_offers(VkPhysicalDevice physical, const VkImageCreateInfo& info) {
       physical, info.format, info.imageType, info.tiling, info.usage, info.flags, &limits);
   if (result == VK_ERROR_FORMAT_NOT_SUPPORTED) return false;
   check(result, "vkGetPhysicalDeviceImageFormatProperties");
-  return info.extent.width <= limits.maxExtent.width && info.extent.height <= limits.maxExtent.height &&
-         info.mipLevels <= limits.maxMipLevels && (limits.sampleCounts & info.samples) != 0;
+  return info.extent.width <= limits.maxExtent.width &&
+         info.extent.height <= limits.maxExtent.height && info.mipLevels <= limits.maxMipLevels &&
+         (limits.sampleCounts & info.samples) != 0;
 }
 
 VkImageAspectFlags aspect_of(Format format) {
@@ -93,21 +96,27 @@ VkImageCreateInfo image_info(const ContextState& context, const ImageOptions& op
   info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
   info.imageType = VK_IMAGE_TYPE_2D;
   info.format = vulkan_format(options.format);
-  info.extent = {static_cast<std::uint32_t>(options.width), static_cast<std::uint32_t>(options.height), 1};
+  info.extent = {static_cast<std::uint32_t>(options.width),
+                 static_cast<std::uint32_t>(options.height), 1};
   info.mipLevels = static_cast<std::uint32_t>(options.levels);
   info.arrayLayers = 1;
   info.samples = static_cast<VkSampleCountFlagBits>(options.samples);
   info.tiling = VK_IMAGE_TILING_OPTIMAL;
-  info.usage = usage_of(features, options.samples > 1, device.shaderStorageImageMultisample == VK_TRUE);
+  info.usage =
+      usage_of(features, options.samples > 1, device.shaderStorageImageMultisample == VK_TRUE);
   return info;
 }
 
 VkSamplerAddressMode address_mode(SamplerOptions::Wrap wrap) {
   switch (wrap) {
-    case SamplerOptions::Wrap::repeat: return VK_SAMPLER_ADDRESS_MODE_REPEAT;
-    case SamplerOptions::Wrap::mirrored_repeat: return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
-    case SamplerOptions::Wrap::clamp_to_edge: return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    case SamplerOptions::Wrap::clamp_to_border: return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER;
+    case SamplerOptions::Wrap::repeat:
+      return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    case SamplerOptions::Wrap::mirrored_repeat:
+      return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+    case SamplerOptions::Wrap::clamp_to_edge:
+      return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    case SamplerOptions::Wrap::clamp_to_border:
+      return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER;
   }
   throw std::invalid_argument("ImageSampler: unknown wrap mode");
 }
@@ -122,22 +131,32 @@ std::size_t texel_bytes(Format format) {
     case Format::r32_float:
     case Format::rgba8:
     case Format::rgba8_srgb:
-    case Format::d32_float: return 4;
-    case Format::rgba16_float: return 8;
-    case Format::rgba32_float: return 16;
+    case Format::d32_float:
+      return 4;
+    case Format::rgba16_float:
+      return 8;
+    case Format::rgba32_float:
+      return 16;
   }
   throw std::invalid_argument("texel_bytes: unknown format");
 }
 
 VkFormat vulkan_format(Format format) {
   switch (format) {
-    case Format::r32_uint: return VK_FORMAT_R32_UINT;
-    case Format::r32_float: return VK_FORMAT_R32_SFLOAT;
-    case Format::rgba8: return VK_FORMAT_R8G8B8A8_UNORM;
-    case Format::rgba8_srgb: return VK_FORMAT_R8G8B8A8_SRGB;
-    case Format::rgba16_float: return VK_FORMAT_R16G16B16A16_SFLOAT;
-    case Format::rgba32_float: return VK_FORMAT_R32G32B32A32_SFLOAT;
-    case Format::d32_float: return VK_FORMAT_D32_SFLOAT;
+    case Format::r32_uint:
+      return VK_FORMAT_R32_UINT;
+    case Format::r32_float:
+      return VK_FORMAT_R32_SFLOAT;
+    case Format::rgba8:
+      return VK_FORMAT_R8G8B8A8_UNORM;
+    case Format::rgba8_srgb:
+      return VK_FORMAT_R8G8B8A8_SRGB;
+    case Format::rgba16_float:
+      return VK_FORMAT_R16G16B16A16_SFLOAT;
+    case Format::rgba32_float:
+      return VK_FORMAT_R32G32B32A32_SFLOAT;
+    case Format::d32_float:
+      return VK_FORMAT_D32_SFLOAT;
   }
   throw std::invalid_argument("Image: unknown format");
 }
@@ -158,12 +177,14 @@ Image::Image(Context& context, const ImageOptions& options) {
   const VkImageCreateInfo info = image_info(shared, options, state.features);
   state.usage = info.usage;
   if (!device_offers(shared.physical, info))
-    throw Error(ErrorKind::missing_feature, "device " + shared.info.name + " does not offer an image of " +
-                                                text(options) + " in that format");
+    throw Error(ErrorKind::missing_feature, "device " + shared.info.name +
+                                                " does not offer an image of " + text(options) +
+                                                " in that format");
   state.image = create<OwnedImage>(shared.link(), vkCreateImage, info, "vkCreateImage");
   VkMemoryRequirements needs{};
   vkGetImageMemoryRequirements(shared.link().device, state.image.get(), &needs);
-  state.memory = OwnedAllocation(*shared.memory, shared.memory->allocate(needs, MemoryUse::fast, false));
+  state.memory =
+      OwnedAllocation(*shared.memory, shared.memory->allocate(needs, MemoryUse::fast, false));
   const Allocation& part = state.memory.get();
   check(vkBindImageMemory(shared.link().device, state.image.get(), part.memory, part.offset),
         "vkBindImageMemory");
@@ -189,7 +210,8 @@ ImageSampler::ImageSampler(Context& context, const SamplerOptions& options)
   info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
   info.magFilter = filter(options.linear_mag);
   info.minFilter = filter(options.linear_min);
-  info.mipmapMode = options.linear_mip ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
+  info.mipmapMode =
+      options.linear_mip ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
   info.addressModeU = address_mode(options.wrap_u);
   info.addressModeV = address_mode(options.wrap_v);
   info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;

@@ -29,8 +29,9 @@ void check_workgroup(const ContextState& context, const RawKernel::State& state)
   if (!fits)
     throw Error(ErrorKind::missing_feature,
                 state.name + ": a workgroup of " + std::to_string(state.local_size[0]) + "x" +
-                    std::to_string(state.local_size[1]) + "x" + std::to_string(state.local_size[2]) +
-                    " does not fit device " + context.info.name + ", which takes " +
+                    std::to_string(state.local_size[1]) + "x" +
+                    std::to_string(state.local_size[2]) + " does not fit device " +
+                    context.info.name + ", which takes " +
                     std::to_string(limits.maxComputeWorkGroupInvocations) + " invocations");
 }
 
@@ -38,8 +39,9 @@ OwnedSetLayout make_set_layout(const ContextState& context, const RawKernel::Sta
   std::vector<VkDescriptorSetLayoutBinding> bindings;
   for (const ShaderReflection::Descriptor& each : state.reflection.descriptors) {
     if (each.set != 0)
-      throw Error(ErrorKind::invalid_shader, state.name + ": images must be in set 0, one is in set " +
-                                                 std::to_string(each.set));
+      throw Error(
+          ErrorKind::invalid_shader,
+          state.name + ": images must be in set 0, one is in set " + std::to_string(each.set));
     VkDescriptorSetLayoutBinding binding{};
     binding.binding = static_cast<std::uint32_t>(each.binding);
     binding.descriptorType = each.kind == ShaderReflection::Descriptor::Kind::sampled_image
@@ -66,7 +68,8 @@ OwnedPipelineLayout make_layout(const ContextState& context, const RawKernel::St
   info.pSetLayouts = &set;
   info.pushConstantRangeCount = state.args_bytes > 0 ? 1 : 0;
   info.pPushConstantRanges = &range;
-  return create<OwnedPipelineLayout>(context.link(), vkCreatePipelineLayout, info, "vkCreatePipelineLayout");
+  return create<OwnedPipelineLayout>(context.link(), vkCreatePipelineLayout, info,
+                                     "vkCreatePipelineLayout");
 }
 
 }  // namespace
@@ -96,9 +99,9 @@ void check_args(const ContextState& context, const char* name, std::uint32_t sha
   // An empty struct has size 1 in C++ and stands for no push constants.
   const bool both_empty = shader_bytes == 0 && args_bytes <= 1;
   if (!both_empty && shader_bytes != args_bytes)
-    throw Error(ErrorKind::invalid_shader, std::string(name) + ": Args has " + std::to_string(args_bytes) +
-                                               " bytes, the shader's push constants " +
-                                               std::to_string(shader_bytes));
+    throw Error(ErrorKind::invalid_shader,
+                std::string(name) + ": Args has " + std::to_string(args_bytes) +
+                    " bytes, the shader's push constants " + std::to_string(shader_bytes));
   if (shader_bytes > context.properties.limits.maxPushConstantsSize)
     throw Error(ErrorKind::missing_feature,
                 std::string(name) + ": " + std::to_string(shader_bytes) +
@@ -132,8 +135,9 @@ RawKernel::RawKernel(Context& context, const ShaderCode& code, std::size_t args_
   info.stage.pSpecializationInfo = &constants.info;
   info.layout = state.layout.get();
   VkPipeline pipeline = VK_NULL_HANDLE;
-  check(vkCreateComputePipelines(shared.link().device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
-        "vkCreateComputePipelines");
+  check(
+      vkCreateComputePipelines(shared.link().device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
+      "vkCreateComputePipelines");
   state.pipeline = OwnedPipeline(shared.link(), pipeline);
 }
 

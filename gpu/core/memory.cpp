@@ -74,7 +74,8 @@ std::uint32_t MemoryPool::choose_type(std::uint32_t allowed, MemoryUse use) cons
   if (use == MemoryUse::fast) type = find_type(allowed, 0, local);
   if (use == MemoryUse::shared) type = find_type(allowed, host, local | cached);
   if (use == MemoryUse::staging) type = find_type(allowed, host, cached);
-  if (!type) throw Error(ErrorKind::missing_feature, "the device has no memory of the kind that is needed");
+  if (!type)
+    throw Error(ErrorKind::missing_feature, "the device has no memory of the kind that is needed");
   return *type;
 }
 
@@ -97,7 +98,8 @@ MemoryBlock& MemoryPool::new_block(std::uint32_t type, VkDeviceSize bytes, bool 
   block.memory = create<OwnedMemory>(link_, vkAllocateMemory, info, "vkAllocateMemory");
   if ((properties_.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0) {
     void* mapped = nullptr;
-    check(vkMapMemory(link_.device, block.memory.get(), 0, VK_WHOLE_SIZE, 0, &mapped), "vkMapMemory");
+    check(vkMapMemory(link_.device, block.memory.get(), 0, VK_WHOLE_SIZE, 0, &mapped),
+          "vkMapMemory");
     block.mapped = static_cast<std::byte*>(mapped);
   }
   block.bytes = bytes;
@@ -109,7 +111,8 @@ MemoryBlock& MemoryPool::new_block(std::uint32_t type, VkDeviceSize bytes, bool 
   return blocks_.back();
 }
 
-Allocation MemoryPool::allocate(const VkMemoryRequirements& needs, MemoryUse use, bool for_buffers) {
+Allocation MemoryPool::allocate(const VkMemoryRequirements& needs, MemoryUse use,
+                                bool for_buffers) {
   const std::uint32_t type = choose_type(needs.memoryTypeBits, use);
   const auto from = [&](MemoryBlock& block) -> std::optional<Allocation> {
     const std::optional<VkDeviceSize> offset = take(block, needs.size, needs.alignment);

@@ -10,23 +10,34 @@ namespace {
 
 VkCompareOp compare_op(Compare compare) {
   switch (compare) {
-    case Compare::never: return VK_COMPARE_OP_NEVER;
-    case Compare::less: return VK_COMPARE_OP_LESS;
-    case Compare::equal: return VK_COMPARE_OP_EQUAL;
-    case Compare::less_or_equal: return VK_COMPARE_OP_LESS_OR_EQUAL;
-    case Compare::greater: return VK_COMPARE_OP_GREATER;
-    case Compare::not_equal: return VK_COMPARE_OP_NOT_EQUAL;
-    case Compare::greater_or_equal: return VK_COMPARE_OP_GREATER_OR_EQUAL;
-    case Compare::always: return VK_COMPARE_OP_ALWAYS;
+    case Compare::never:
+      return VK_COMPARE_OP_NEVER;
+    case Compare::less:
+      return VK_COMPARE_OP_LESS;
+    case Compare::equal:
+      return VK_COMPARE_OP_EQUAL;
+    case Compare::less_or_equal:
+      return VK_COMPARE_OP_LESS_OR_EQUAL;
+    case Compare::greater:
+      return VK_COMPARE_OP_GREATER;
+    case Compare::not_equal:
+      return VK_COMPARE_OP_NOT_EQUAL;
+    case Compare::greater_or_equal:
+      return VK_COMPARE_OP_GREATER_OR_EQUAL;
+    case Compare::always:
+      return VK_COMPARE_OP_ALWAYS;
   }
   throw std::invalid_argument("RasterPipeline: unknown comparison");
 }
 
 VkPrimitiveTopology topology(Primitive primitive) {
   switch (primitive) {
-    case Primitive::points: return VK_PRIMITIVE_TOPOLOGY_POINT_LIST;
-    case Primitive::lines: return VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
-    case Primitive::triangles: return VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    case Primitive::points:
+      return VK_PRIMITIVE_TOPOLOGY_POINT_LIST;
+    case Primitive::lines:
+      return VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
+    case Primitive::triangles:
+      return VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
   }
   throw std::invalid_argument("RasterPipeline: unknown primitive");
 }
@@ -34,14 +45,16 @@ VkPrimitiveTopology topology(Primitive primitive) {
 /// Colour and alpha blend alike: `source` * new + `target` * old.
 VkPipelineColorBlendAttachmentState blend_state(Blend blend) {
   VkPipelineColorBlendAttachmentState state{};
-  state.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
-                         VK_COLOR_COMPONENT_A_BIT;
+  state.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
+                         VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
   if (blend == Blend::replace) return state;
   state.blendEnable = VK_TRUE;
   state.colorBlendOp = VK_BLEND_OP_ADD;
   state.alphaBlendOp = VK_BLEND_OP_ADD;
-  const VkBlendFactor kept = blend == Blend::add ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
-  state.srcColorBlendFactor = blend == Blend::source_over ? VK_BLEND_FACTOR_SRC_ALPHA : VK_BLEND_FACTOR_ONE;
+  const VkBlendFactor kept =
+      blend == Blend::add ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+  state.srcColorBlendFactor =
+      blend == Blend::source_over ? VK_BLEND_FACTOR_SRC_ALPHA : VK_BLEND_FACTOR_ONE;
   state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
   state.dstColorBlendFactor = kept;
   state.dstAlphaBlendFactor = kept;
@@ -62,7 +75,8 @@ VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, const Ow
 void check_options(const ContextState& context, const RasterOptions& options) {
   if (!options.blends.empty() && options.blends.size() != options.colors.size())
     throw std::invalid_argument("RasterPipeline: " + std::to_string(options.blends.size()) +
-                                " blends for " + std::to_string(options.colors.size()) + " colours");
+                                " blends for " + std::to_string(options.colors.size()) +
+                                " colours");
   const std::vector<int>& counts = context.info.sample_counts;
   if (std::find(counts.begin(), counts.end(), options.samples) == counts.end())
     throw Error(ErrorKind::missing_feature, "device " + context.info.name + " does not offer " +
@@ -74,12 +88,14 @@ void check_options(const ContextState& context, const RasterOptions& options) {
 }
 
 OwnedPipelineLayout make_layout(const ContextState& context, std::uint32_t args_bytes) {
-  const VkPushConstantRange range{VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0, args_bytes};
+  const VkPushConstantRange range{VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                                  args_bytes};
   VkPipelineLayoutCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
   info.pushConstantRangeCount = args_bytes > 0 ? 1 : 0;
   info.pPushConstantRanges = &range;
-  return create<OwnedPipelineLayout>(context.link(), vkCreatePipelineLayout, info, "vkCreatePipelineLayout");
+  return create<OwnedPipelineLayout>(context.link(), vkCreatePipelineLayout, info,
+                                     "vkCreatePipelineLayout");
 }
 
 /// The fixed-function state that `options` asks for; points into itself.
@@ -91,7 +107,8 @@ struct FixedState {
   std::vector<VkFormat> formats;
   std::vector<VkPipelineColorBlendAttachmentState> attachments;
   std::array<VkDynamicState, 4> dynamic_states{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
-                                               VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE};
+                                               VK_DYNAMIC_STATE_CULL_MODE,
+                                               VK_DYNAMIC_STATE_FRONT_FACE};
   VkPipelineRenderingCreateInfo rendering{};
   VkPipelineVertexInputStateCreateInfo vertex_input{};
   VkPipelineInputAssemblyStateCreateInfo assembly{};
@@ -137,7 +154,8 @@ FixedState::FixedState(const RasterOptions& options) {
 }
 
 VkPipeline make_pipeline(const ContextState& context, const RasterOptions& options,
-                         std::span<const VkPipelineShaderStageCreateInfo> stages, VkPipelineLayout layout) {
+                         std::span<const VkPipelineShaderStageCreateInfo> stages,
+                         VkPipelineLayout layout) {
   const FixedState fixed(options);
   VkGraphicsPipelineCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
@@ -154,7 +172,8 @@ VkPipeline make_pipeline(const ContextState& context, const RasterOptions& optio
   info.pDynamicState = &fixed.dynamic;
   info.layout = layout;
   VkPipeline pipeline = VK_NULL_HANDLE;
-  check(vkCreateGraphicsPipelines(context.link().device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
+  check(vkCreateGraphicsPipelines(context.link().device, VK_NULL_HANDLE, 1, &info, nullptr,
+                                  &pipeline),
         "vkCreateGraphicsPipelines");
   return pipeline;
 }
@@ -173,7 +192,8 @@ RawRasterPipeline::RawRasterPipeline(Context& context, const ShaderCode& vertex,
   for (const ShaderCode* code : {&vertex, &fragment}) {
     const ShaderReflection reflection = reflect(*code);
     if (!reflection.descriptors.empty())
-      throw Error(ErrorKind::invalid_shader, std::string(code->name) + ": vertex and fragment shaders have no images");
+      throw Error(ErrorKind::invalid_shader,
+                  std::string(code->name) + ": vertex and fragment shaders have no images");
     // A stage may leave the arguments to the other.
     if (reflection.push_constant_bytes == 0) continue;
     check_args(shared, code->name, reflection.push_constant_bytes, args_bytes);

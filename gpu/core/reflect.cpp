@@ -65,7 +65,8 @@ class Operands {
   std::size_t size() const { return words_.size(); }
   Word operator[](std::size_t i) const {
     if (i >= words_.size())
-      throw Error(ErrorKind::invalid_shader, std::string(name_) + ": SPIR-V instruction without operand " + std::to_string(i));
+      throw Error(ErrorKind::invalid_shader,
+                  std::string(name_) + ": SPIR-V instruction without operand " + std::to_string(i));
     return words_[i];
   }
 
@@ -76,10 +77,10 @@ class Operands {
 
 struct Type {
   Op op = op_type_void;
-  std::uint64_t size = 0;   ///< bytes under scalar layout; 0: not data
+  std::uint64_t size = 0;  ///< bytes under scalar layout; 0: not data
   std::uint64_t alignment = 1;
-  Word storage = 0;         ///< pointers: storage class; images: sampled or storage
-  Word element = 0;         ///< pointers, arrays, sampled images
+  Word storage = 0;  ///< pointers: storage class; images: sampled or storage
+  Word element = 0;  ///< pointers, arrays, sampled images
 };
 
 struct Constant {
@@ -112,8 +113,8 @@ class Reader {
   const char* name_;
   std::span<const Word> words_;
   ShaderReflection reflection_;
-  std::map<std::pair<Word, Word>, Word> decorations_;                     ///< (id, kind)
-  std::map<std::pair<Word, Word>, Word> offsets_;                         ///< (struct, member)
+  std::map<std::pair<Word, Word>, Word> decorations_;  ///< (id, kind)
+  std::map<std::pair<Word, Word>, Word> offsets_;      ///< (struct, member)
   std::map<Word, Type> types_;
   std::map<Word, Constant> constants_;
   std::optional<std::array<Word, 3>> local_size_ids_;
@@ -128,23 +129,35 @@ ShaderReflection Reader::read() {
   if (words_.size() < header_words || words_[0] != magic) fail("no SPIR-V module");
   for (std::size_t at = header_words; at < words_.size();) {
     const std::size_t length = words_[at] >> 16;
-    if (length == 0 || length > words_.size() - at) fail("SPIR-V instruction of " + std::to_string(length) + " words at word " + std::to_string(at));
-    instruction(static_cast<Op>(words_[at] & 0xFFFF), Operands(name_, words_.subspan(at + 1, length - 1)));
+    if (length == 0 || length > words_.size() - at)
+      fail("SPIR-V instruction of " + std::to_string(length) + " words at word " +
+           std::to_string(at));
+    instruction(static_cast<Op>(words_[at] & 0xFFFF),
+                Operands(name_, words_.subspan(at + 1, length - 1)));
     at += length;
   }
   if (!has_entry_) fail("SPIR-V without an entry point");
   if (local_size_ids_)
-    for (int axis = 0; axis < 3; ++axis) set_local_size(axis, (*local_size_ids_)[static_cast<std::size_t>(axis)]);
+    for (int axis = 0; axis < 3; ++axis)
+      set_local_size(axis, (*local_size_ids_)[static_cast<std::size_t>(axis)]);
   std::sort(reflection_.specialization_ids.begin(), reflection_.specialization_ids.end());
   return reflection_;
 }
 
 void Reader::instruction(Op op, const Operands& operands) {
   switch (op) {
-    case op_entry_point: has_entry_ = true; break;
-    case op_execution_mode: execution_mode(operands, false); break;
-    case op_execution_mode_id: execution_mode(operands, true); break;
-    case op_decorate: decorate(operands); break;
+    case op_entry_point:
+      has_entry_ = true;
+      break;
+    case op_execution_mode:
+      execution_mode(operands, false);
+      break;
+    case op_execution_mode_id:
+      execution_mode(operands, true);
+      break;
+    case op_decorate:
+      decorate(operands);
+      break;
     case op_member_decorate:
       if (operands[2] == decoration_offset) offsets_[{operands[0], operands[1]}] = operands[3];
       break;
@@ -153,8 +166,12 @@ void Reader::instruction(Op op, const Operands& operands) {
     case op_spec_constant_true:
     case op_spec_constant_false:
     case op_spec_constant:
-    case op_spec_constant_composite: define_constant(op, operands); break;
-    case op_variable: define_variable(operands); break;
+    case op_spec_constant_composite:
+      define_constant(op, operands);
+      break;
+    case op_variable:
+      define_variable(operands);
+      break;
     default:
       if (op >= op_type_void && op <= op_type_forward_pointer) define_type(op, operands);
   }
@@ -164,7 +181,8 @@ void Reader::decorate(const Operands& operands) {
   const Word id = operands[0];
   const Word kind = operands[1];
   const bool has_value = kind == decoration_spec_id || kind == decoration_array_stride ||
-                         kind == decoration_built_in || kind == decoration_binding || kind == decoration_set;
+                         kind == decoration_built_in || kind == decoration_binding ||
+                         kind == decoration_set;
   if (!has_value) return;
   decorations_[{id, kind}] = operands[2];
   if (kind == decoration_spec_id) reflection_.specialization_ids.push_back(operands[2]);
@@ -179,7 +197,8 @@ void Reader::execution_mode(const Operands& operands, bool ids) {
 
 const Type& Reader::type(Word id) const {
   const auto found = types_.find(id);
-  if (found == types_.end()) fail("SPIR-V uses type " + std::to_string(id) + " before it is declared");
+  if (found == types_.end())
+    fail("SPIR-V uses type " + std::to_string(id) + " before it is declared");
   return found->second;
 }
 
@@ -201,7 +220,8 @@ Type Reader::data_type(Op op, const Operands& operands) const {
     case op_type_int:
     case op_type_float: {
       const std::uint64_t bytes = operands[1] / 8;
-      if (bytes != 1 && bytes != 2 && bytes != 4 && bytes != 8) fail("SPIR-V number of " + std::to_string(operands[1]) + " bits");
+      if (bytes != 1 && bytes != 2 && bytes != 4 && bytes != 8)
+        fail("SPIR-V number of " + std::to_string(operands[1]) + " bits");
       return {.size = bytes, .alignment = bytes};
     }
     case op_type_vector:
@@ -209,13 +229,20 @@ Type Reader::data_type(Op op, const Operands& operands) const {
       const Type& part = type(operands[1]);
       return {.size = part.size * operands[2], .alignment = part.alignment};
     }
-    case op_type_array: return array_type(operands);
-    case op_type_struct: return struct_type(operands);
-    case op_type_pointer: return {.size = 8, .alignment = 8, .storage = operands[1], .element = operands[2]};
-    case op_type_forward_pointer: return {.size = 8, .alignment = 8, .storage = operands[1]};
-    case op_type_image: return {.storage = operands[6]};
-    case op_type_sampled_image: return {.element = operands[1]};
-    default: return {};
+    case op_type_array:
+      return array_type(operands);
+    case op_type_struct:
+      return struct_type(operands);
+    case op_type_pointer:
+      return {.size = 8, .alignment = 8, .storage = operands[1], .element = operands[2]};
+    case op_type_forward_pointer:
+      return {.size = 8, .alignment = 8, .storage = operands[1]};
+    case op_type_image:
+      return {.storage = operands[6]};
+    case op_type_sampled_image:
+      return {.element = operands[1]};
+    default:
+      return {};
   }
 }
 
@@ -262,8 +289,8 @@ void Reader::set_local_size(int axis, Word id) {
 
 void Reader::define_variable(const Operands& operands) {
   const Word storage = operands[2];
-  if (storage != storage_push_constant && storage != storage_uniform_constant && storage != storage_uniform &&
-      storage != storage_storage_buffer)
+  if (storage != storage_push_constant && storage != storage_uniform_constant &&
+      storage != storage_uniform && storage != storage_storage_buffer)
     return;
   const Type& pointer = type(operands[0]);
   if (pointer.op != op_type_pointer) fail("SPIR-V variable whose type is no pointer");
@@ -283,7 +310,8 @@ void Reader::add_descriptor(Word variable, const Type& pointee) {
     fail("a descriptor that is neither a combined image sampler nor a storage image");
   const Word set = decoration(variable, decoration_set).value_or(0);
   const Word binding = decoration(variable, decoration_binding).value_or(0);
-  if (set > 31 || binding > 1023) fail("image at set " + std::to_string(set) + ", binding " + std::to_string(binding));
+  if (set > 31 || binding > 1023)
+    fail("image at set " + std::to_string(set) + ", binding " + std::to_string(binding));
   reflection_.descriptors.push_back({.set = static_cast<int>(set),
                                      .binding = static_cast<int>(binding),
                                      .kind = storage ? Kind::storage_image : Kind::sampled_image});

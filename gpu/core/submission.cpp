@@ -47,7 +47,8 @@ VkCommandBuffer Submission::begin() {
   if (!broken_.empty()) throw Error(ErrorKind::device_lost, "the device is lost since " + broken_);
   timestamps_ = 0;
   for (std::size_t i = 0; i < descriptor_pools_used_; ++i)
-    check(vkResetDescriptorPool(link_.device, descriptor_pools_[i].get(), 0), "vkResetDescriptorPool");
+    check(vkResetDescriptorPool(link_.device, descriptor_pools_[i].get(), 0),
+          "vkResetDescriptorPool");
   descriptor_pools_used_ = 0;
   return restart(commands_);
 }
@@ -109,7 +110,8 @@ void Submission::make_query_pool(VkCommandBuffer commands) {
     info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
     info.queryType = VK_QUERY_TYPE_TIMESTAMP;
     info.queryCount = queries_in_pool;
-    query_pools_.push_back(create<OwnedQueryPool>(link_, vkCreateQueryPool, info, "vkCreateQueryPool"));
+    query_pools_.push_back(
+        create<OwnedQueryPool>(link_, vkCreateQueryPool, info, "vkCreateQueryPool"));
   }
   vkCmdResetQueryPool(commands, query_pools_[pool].get(), 0, queries_in_pool);
 }

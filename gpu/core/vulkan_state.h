@@ -30,8 +30,8 @@ std::string result_name(VkResult result);
 /// @throws Error  of the kind that fits, naming the call and the result, if the result is an error.
 void check(VkResult result, const char* call);
 
-/// The device, and whether it was given up on: work that never ends runs on it, so that nothing of it
-/// can be destroyed any more.
+/// The device, and whether it was given up on: work that never ends runs on it, so that nothing of
+/// it can be destroyed any more.
 struct DeviceLink {
   VkDevice device = VK_NULL_HANDLE;
   bool abandoned = false;
@@ -56,8 +56,7 @@ class Owned {
 
  private:
   void reset() {
-    if (handle_ != VK_NULL_HANDLE && !link_->abandoned)
-      (*destroy)(link_->device, handle_, nullptr);
+    if (handle_ != VK_NULL_HANDLE && !link_->abandoned) (*destroy)(link_->device, handle_, nullptr);
     handle_ = VK_NULL_HANDLE;
   }
 
@@ -223,8 +222,9 @@ class Submission {
  public:
   Submission(const DeviceLink& link, std::uint32_t queue_family, double timeout_seconds);
 
-  VkCommandBuffer begin();           ///< for Context::run
-  VkCommandBuffer begin_transfer();  ///< for uploads and downloads, which may happen while recording
+  VkCommandBuffer begin();  ///< for Context::run
+  VkCommandBuffer
+  begin_transfer();  ///< for uploads and downloads, which may happen while recording
   void submit_and_wait(VkCommandBuffer commands);
 
   /// Records the clock; returns the number of the reading.
@@ -259,7 +259,8 @@ class Submission {
 // ---- context.cpp ----
 
 struct ContextState {
-  ContextState(const ContextOptions& context_options, std::unique_ptr<ValidationLog> validation_log);
+  ContextState(const ContextOptions& context_options,
+               std::unique_ptr<ValidationLog> validation_log);
 
   ContextOptions options;
   std::unique_ptr<ValidationLog> log;
@@ -342,8 +343,8 @@ struct Image::State {
   ImageOptions options;
   OwnedAllocation memory;
   OwnedImage image;
-  OwnedImageView view;                  ///< all levels
-  std::vector<OwnedImageView> levels;   ///< one level each
+  OwnedImageView view;                 ///< all levels
+  std::vector<OwnedImageView> levels;  ///< one level each
   VkImageUsageFlags usage = 0;
   VkFormatFeatureFlags features = 0;
   std::uint64_t counted = 0;

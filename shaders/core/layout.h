@@ -1,7 +1,7 @@
 #ifndef PARITY_CORE_LAYOUT_H
 #define PARITY_CORE_LAYOUT_H
 
-#include "shared.h"
+#include "../shared.h"
 
 #ifdef __cplusplus
 namespace parity {
