@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
+#include "cpu_reference/raster/affine_bound.h"
 #include "cpu_reference/raster/rasterize.h"
 #include "cpu_reference/raster/triangle_list.h"
 
@@ -65,41 +65,11 @@ dvec4 value_at(const Interpolant& of, double x, double y) {
   return weights.x * of.values[0] + weights.y * of.values[1] + weights.z * of.values[2];
 }
 
-/// The bound of one affine function for all pixels of a triangle.
-class AffineBound {
- public:
-  AffineBound(const Interpolant& of, int width, int height, Snapping snapping)
-      : width_(width),
-        height_(height),
-        snap_(std::numbers::sqrt2 * (snapping == Snapping::mesa ? 0x1p-9 : 0x1p-5)) {
-    std::array<dvec2, 3> p;
-    for (std::size_t i = 0; i < 3; ++i)
-      p[i] = (dvec2(of.clip[i]) / double(of.clip[i].w) + 1.0) * 0.5 * dvec2(width, height);
-    const dvec2 u = p[1] - p[0], v = p[2] - p[0], w = p[2] - p[1];
-    const double longest = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)});
-    slenderness_ = longest / std::abs(u.x * v.y - u.y * v.x);
-  }
-
-  double operator()(const WindowPlane& a, dvec3 at_corners) const {
-    const double largest =
-        std::max({std::abs(at_corners.x), std::abs(at_corners.y), std::abs(at_corners.z)});
-    const double over_window =
-        std::abs(a.at_origin) + std::abs(a.dx) * width_ + std::abs(a.dy) * height_;
-    return snap_ * std::hypot(a.dx, a.dy) + 8.0 * 0x1p-24 * std::max(over_window, largest) +
-           4.0 * 0x1p-24 * largest * slenderness_;
-  }
-
- private:
-  double width_, height_;
-  double snap_;
-  double slenderness_ = 0.0;
-};
-
 /// Numerators a / w (or a itself) and the denominator of the four components, with their bounds.
 class ValueBound {
  public:
   ValueBound(const Interpolant& of, const TriangleList& list, Snapping snapping) : of_(of) {
-    const AffineBound bound{of, list.width, list.height, snapping};
+    const AffineBound bound{of.clip, list.width, list.height, snapping};
     const dvec3 w{of.clip[0].w, of.clip[1].w, of.clip[2].w};
     denominator_error_ = bound(of.planes.reciprocal_w, 1.0 / w);
     for (int c = 0; c < 4; ++c) {
