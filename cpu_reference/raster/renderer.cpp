@@ -1,0 +1,129 @@
+#include "cpu_reference/raster/renderer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <stdexcept>
+#include <string>
+
+#include "cpu_reference/raster/band.h"
+
+namespace parity::cpu {
+namespace {
+
+constexpr int band_rows = 16;
+
+void check(const Frame& frame) {
+  const FrameOptions& o = frame.options;
+  if (o.width < 1 || o.height < 1 || o.width > 16384 || o.height > 16384)
+    throw std::invalid_argument("cpu::render: size is " + std::to_string(o.width) + "x" +
+                                std::to_string(o.height) + ", sides must be 1 to 16384");
+  if (o.depth == DepthMode::logarithmic &&
+      (frame.orthographic || !(frame.far > frame.near) || !(frame.near > 0)))
+    throw std::invalid_argument(
+        "cpu::render: logarithmic depth needs a perspective camera with a finite far plane");
+}
+
+/// Seconds since the last call, by name.
+class PassClock {
+ public:
+  explicit PassClock(Picture& picture) : picture_(picture) {}
+  void finish(const char* pass) {
+    const auto now = std::chrono::steady_clock::now();
+    picture_.pass_seconds.emplace_back(pass, std::chrono::duration<double>(now - last_).count());
+    last_ = now;
+  }
+
+ private:
+  Picture& picture_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// Which pieces reach which band, in their order.
+using Bins = std::vector<std::vector<std::uint32_t>>;
+
+Bins bin(const std::vector<Piece>& pieces, const Elements& elements, const FrameOptions& o) {
+  Bins bins(std::size_t((o.height + band_rows - 1) / band_rows));
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const PixelBox box = pixel_box(pieces[i].shape, elements.grid, {0, 0, o.width, o.height});
+    if (box.empty()) continue;
+    for (int b = box.top / band_rows; b <= (box.bottom - 1) / band_rows; ++b)
+      bins[std::size_t(b)].push_back(std::uint32_t(i));
+  }
+  return bins;
+}
+
+void draw_band(const RenderJob& job, int band, const std::vector<std::uint32_t>& opaque,
+               const std::vector<std::uint32_t>& blended, Rendered& rendered) {
+  const FrameOptions& o = job.frame.options;
+  const PixelBox box{0, band * band_rows, o.width, std::min(o.height, (band + 1) * band_rows)};
+  Band rows(job, box);
+  for (const std::uint32_t piece : opaque) rows.draw_opaque(job.elements.opaque[piece]);
+  rows.shade();
+  for (const std::uint32_t piece : blended) rows.draw_blended(job.elements.blended[piece]);
+  rows.store(rendered);
+}
+
+void draw_bands(const RenderJob& job, const std::function<void(double)>& progress,
+                Rendered& rendered) {
+  const Bins opaque = bin(job.elements.opaque, job.elements, job.frame.options);
+  const Bins blended = bin(job.elements.blended, job.elements, job.frame.options);
+  const int count = int(opaque.size());
+  int done = 0;
+  std::exception_ptr failure;
+#pragma omp parallel for schedule(dynamic)
+  for (int b = 0; b < count; ++b) {
+    try {
+      draw_band(job, b, opaque[std::size_t(b)], blended[std::size_t(b)], rendered);
+#pragma omp critical(parity_render_progress)
+      if (progress) progress(double(++done) / count);
+    } catch (...) {
+#pragma omp critical(parity_render_failure)
+      failure = std::current_exception();
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+Rendered blank(const FrameOptions& o, const RenderOptions& options) {
+  Rendered r;
+  r.picture.color = {o.width, o.height};
+  r.picture.depth = {o.width, o.height};
+  if (options.elements) r.picture.element = {o.width, o.height};
+  if (options.bounds) {
+    r.color_bound = {o.width, o.height};
+    r.depth_bound = {o.width, o.height};
+    r.ambiguous = {o.width, o.height};
+  }
+  return r;
+}
+
+std::vector<dvec2> sample_places_in_pixels(int samples) {
+  std::vector<dvec2> places;
+  for (const ivec2 place : standard_sample_places(samples)) places.push_back(dvec2(place) / 16.0);
+  return places;
+}
+
+}  // namespace
+
+Rendered render(const Scene& scene, const Frame& frame, const RenderOptions& options,
+                const std::function<void(double)>& progress) {
+  check(frame);
+  const FrameOptions& o = frame.options;
+  Rendered rendered = blank(o, options);
+  PassClock clock(rendered.picture);
+  const std::vector<dvec2> places = sample_places_in_pixels(o.samples);
+  const Elements elements = place_elements(scene, frame, options.snapping);
+  clock.finish("vertices");
+  const SceneTextures textures(scene, frame);
+  clock.finish("textures");
+  const RenderJob job{
+      frame, options, elements, textures, shading_scene(frame), {o.depth, frame.near, frame.far},
+      places};
+  draw_bands(job, progress, rendered);
+  clock.finish("raster");
+  rendered.picture.triangle_count = elements.triangle_count;
+  return rendered;
+}
+
+}  // namespace parity::cpu

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "cpu_reference/shading/interval.h"
+#include "geometry/frame.h"
+#include "geometry/material.h"
+#include "geometry/math.h"
+
+namespace parity::cpu {
+
+/// What a fragment's colour depends on, as one list of numbers, so that each can be moved by its
+/// error. Textures stand for white (normal map: (0.5, 0.5, 1)) where the material has none.
+namespace shading_input {
+constexpr std::size_t position = 0;            ///< 3, m, world
+constexpr std::size_t normal = 3;              ///< 3, world, any length, as interpolated
+constexpr std::size_t tangent = 6;             ///< 3, world, as interpolated
+constexpr std::size_t color = 9;               ///< 4, vertex colour, linear RGBA
+constexpr std::size_t base_texture = 13;       ///< 4, linear RGBA
+constexpr std::size_t roughness_texture = 17;  ///< G
+constexpr std::size_t metallic_texture = 18;   ///< B
+constexpr std::size_t normal_texture = 19;     ///< 3, 0 to 1
+constexpr std::size_t occlusion_texture = 22;  ///< R
+constexpr std::size_t emission_texture = 23;   ///< 3, linear RGB
+constexpr std::size_t count = 26;
+}  // namespace shading_input
+
+template <class Real>
+struct ShadingPoint {
+  std::array<Real, shading_input::count> inputs{};
+  double handedness = 1;  ///< w of the tangent: +-1
+  bool back = false;      ///< seen from behind: the normal turns over
+};
+
+/// What lights the scene and from where it is seen, in double.
+struct ShadingScene {
+  dvec3 eye{0.0};
+  dvec3 backward{0.0, 0.0, 1.0};
+  bool orthographic = false;
+  dvec3 ambient{0.0};
+  std::vector<PlacedLight> lights;
+};
+ShadingScene shading_scene(const Frame& frame);
+
+template <class Real>
+struct Shaded {
+  std::array<Real, 3> rgb{};  ///< radiance toward the eye, W/(m^2 sr)
+  Real alpha{};               ///< of base colour, before the alpha mode has its say
+};
+
+/// Radiance that leaves a point of a surface toward the eye: punctual lights, uniform environment,
+/// emission. Unlit materials: the base colour.
+///
+/// Real is double (the answer) or Interval (all that single precision may make of it).
+///
+/// Source: notes 6.1; glTF 2.0, Appendix B; KHR_lights_punctual, KHR_materials_unlit; Karis 2014,
+/// "Physically based shading on mobile" (environment); Heitz 2014 (V, height-correlated Smith).
+template <class Real>
+Shaded<Real> shade(const Material& material, const ShadingScene& scene,
+                   const ShadingPoint<Real>& point);
+
+extern template Shaded<double> shade(const Material&, const ShadingScene&,
+                                     const ShadingPoint<double>&);
+extern template Shaded<Interval> shade(const Material&, const ShadingScene&,
+                                       const ShadingPoint<Interval>&);
+
+}  // namespace parity::cpu
