@@ -65,10 +65,12 @@ bool Trial::passed() const {
 
 Trial run_stage(const Stage& stage, const Setting& setting, gpu::Context* context,
                 const std::any& problem) {
-  Trial trial{.setting = setting, .tolerance = stage.tolerance(problem), .methods = {}};
-  std::vector<std::optional<Attempt>> attempts(stage.methods.size());
+  Trial trial;
+  trial.setting = setting;
+  trial.tolerance = stage.tolerance(problem);
+  trial.attempts.resize(stage.methods.size());
   for (std::size_t i = 0; i < stage.methods.size(); ++i)
-    trial.methods.push_back(run_method(stage, problem, i, context, attempts));
+    trial.methods.push_back(run_method(stage, problem, i, context, trial.attempts));
   return trial;
 }
 

@@ -183,6 +183,7 @@ struct Trial {
   Setting setting;
   double tolerance = 0;
   std::vector<MethodTrial> methods;
+  std::vector<std::optional<Attempt>> attempts;  ///< one a method; none: skipped
   /// Everything that was compared is within the tolerance; NaN never is.
   bool passed() const;
 };
