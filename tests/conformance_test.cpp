@@ -30,7 +30,7 @@ TEST_P(Conformance, SidesAgree) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Stages, Conformance, testing::ValuesIn(checks_of(all_stages(), {})),
-                         [](const auto& info) { return identifier(info.param.name()); });
+                         [](const auto& test) { return identifier(test.param.name()); });
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Conformance);
 
 struct StageParam {
@@ -75,7 +75,7 @@ std::vector<StageParam> stage_params() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Stages, Perturbed, testing::ValuesIn(stage_params()),
-                         [](const auto& info) { return identifier(info.param.stage->name); });
+                         [](const auto& test) { return identifier(test.param.stage->name); });
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Perturbed);
 
 }  // namespace
