@@ -212,6 +212,7 @@ RawBuffer::RawBuffer(Context& context, std::size_t bytes, std::size_t element_by
   state.counted = bytes;
 }
 
+RawBuffer::RawBuffer() = default;
 RawBuffer::~RawBuffer() = default;
 RawBuffer::RawBuffer(RawBuffer&&) noexcept = default;
 RawBuffer& RawBuffer::operator=(RawBuffer&&) noexcept = default;

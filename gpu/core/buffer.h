@@ -21,7 +21,7 @@ namespace parity::gpu {
 /// in both, which reads as NaN-like nonsense, never as 0.
 class RawBuffer {
  public:
-  RawBuffer() = default;
+  RawBuffer();
   RawBuffer(Context& context, std::size_t bytes, std::size_t element_bytes);
   ~RawBuffer();
   RawBuffer(RawBuffer&& other) noexcept;
