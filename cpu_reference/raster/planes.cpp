@@ -25,9 +25,7 @@ Planes constant(const std::array<vec4, 3>& clip) {
   return with_sums({dvec3(0.0, 0.0, 1 / (w != 0 ? w : 1.0)), dvec3(0.0), dvec3(0.0)}, clip);
 }
 
-}  // namespace
-
-Planes triangle_planes(const std::array<vec4, 3>& clip, int width, int height) {
+Planes of_triangle(const std::array<vec4, 3>& clip, int width, int height) {
   // Rows of the inverse of the matrix with columns (x, y, w)_i: weight_i = cross of the other two
   // over the determinant.
   const auto row = [&](std::size_t i) {
@@ -43,7 +41,7 @@ Planes triangle_planes(const std::array<vec4, 3>& clip, int width, int height) {
                    clip);
 }
 
-Planes line_planes(const std::array<vec4, 3>& clip, int width, int height) {
+Planes of_line(const std::array<vec4, 3>& clip, int width, int height) {
   const ClippedLine line = clip_line(clip[0], clip[1]);
   if (line.empty) return constant(clip);
   const dvec2 a = window_of(line.ends[0], width, height);
@@ -59,17 +57,17 @@ Planes line_planes(const std::array<vec4, 3>& clip, int width, int height) {
                    clip);
 }
 
-Planes point_planes(const std::array<vec4, 3>& clip) { return constant(clip); }
+}  // namespace
 
 Planes element_planes(const PlacedDraw& draw, std::uint32_t element, int width, int height) {
   const std::array<vec4, 3> clip = clip_corners(draw, element);
   switch (draw.primitive->topology) {
     case Topology::points:
-      return point_planes(clip);
+      return constant(clip);
     case Topology::lines:
-      return line_planes(clip, width, height);
+      return of_line(clip, width, height);
     case Topology::triangles:
-      return triangle_planes(clip, width, height);
+      return of_triangle(clip, width, height);
   }
   return {};
 }

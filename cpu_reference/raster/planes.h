@@ -20,14 +20,8 @@ struct Planes {
   dvec3 depth{0.0};
 };
 
-/// A triangle seen edge-on gives the values of its first vertex everywhere.
-Planes triangle_planes(const std::array<vec4, 3>& clip, int width, int height);
-
-/// Along a line the varyings change with the projection on it, across it they are constant.
-Planes line_planes(const std::array<vec4, 3>& clip, int width, int height);
-
-Planes point_planes(const std::array<vec4, 3>& clip);
-
+/// A triangle seen edge-on gives the values of its first vertex everywhere. Along a line the
+/// varyings change with the projection on it, across it they are constant.
 Planes element_planes(const PlacedDraw& draw, std::uint32_t element, int width, int height);
 
 inline double at(const dvec3& plane, double x, double y) {
