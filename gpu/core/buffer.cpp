@@ -47,26 +47,28 @@ void copy_between(ContextState& context, VkBuffer from, std::size_t from_offset,
   context.submission->submit_and_wait(commands);
 }
 
-/// Bytes of the VkBuffer, from its start, through the staging buffer, a part at a time.
+/// Bytes of the memory, from its start, through the staging buffer, a part at a time.
 void upload(RawBuffer::State& state, const std::byte* source, std::size_t offset,
             std::size_t bytes) {
-  const Allocation& staging = state.context.staging.allocation.get();
-  for (std::size_t done = 0; done < bytes; done += staging.bytes) {
-    const std::size_t part = std::min<std::size_t>(staging.bytes, bytes - done);
-    std::memcpy(staging.mapped, source + done, part);
-    copy_between(state.context, state.context.staging.buffer.get(), 0, state.buffer, offset + done,
+  const MemoryBuffer& staging = state.context.staging;
+  const std::size_t most = staging.allocation.get().bytes;
+  for (std::size_t done = 0; done < bytes; done += most) {
+    const std::size_t part = std::min(most, bytes - done);
+    std::memcpy(staging.allocation.get().mapped, source + done, part);
+    copy_between(state.context, staging.buffer.get(), 0, state.memory.buffer.get(), offset + done,
                  part);
   }
 }
 
 void download(const RawBuffer::State& state, std::byte* target, std::size_t offset,
               std::size_t bytes) {
-  const Allocation& staging = state.context.staging.allocation.get();
-  for (std::size_t done = 0; done < bytes; done += staging.bytes) {
-    const std::size_t part = std::min<std::size_t>(staging.bytes, bytes - done);
-    copy_between(state.context, state.buffer, offset + done, state.context.staging.buffer.get(), 0,
+  const MemoryBuffer& staging = state.context.staging;
+  const std::size_t most = staging.allocation.get().bytes;
+  for (std::size_t done = 0; done < bytes; done += most) {
+    const std::size_t part = std::min(most, bytes - done);
+    copy_between(state.context, state.memory.buffer.get(), offset + done, staging.buffer.get(), 0,
                  part);
-    std::memcpy(target + done, staging.mapped, part);
+    std::memcpy(target + done, staging.allocation.get().mapped, part);
   }
 }
 
@@ -77,23 +79,48 @@ void poison_all(RawBuffer::State& state) {
   }
   const VkCommandBuffer commands = state.context.submission->begin_transfer();
   full_barrier(commands);
-  vkCmdFillBuffer(commands, state.buffer, 0, VK_WHOLE_SIZE, poison_word);
+  vkCmdFillBuffer(commands, state.memory.buffer.get(), 0, VK_WHOLE_SIZE, poison_word);
   state.context.submission->submit_and_wait(commands);
 }
 
-void allocate(RawBuffer::State& state) {
-  state.total = align(std::max<std::size_t>(state.start + state.bytes + state.start, 4), 4);
-  state.memory = make_buffer(state.context, state.total,
-                             state.context.staged ? MemoryUse::fast : MemoryUse::shared);
-  state.buffer = state.memory.buffer.get();
+MemoryUse use_of(const ContextState& context) {
+  return context.staged ? MemoryUse::fast : MemoryUse::shared;
+}
+
+void take_mapping(RawBuffer::State& state) {
   if (!state.context.staged) state.mapped = state.memory.allocation.get().mapped;
+}
+
+void allocate(RawBuffer::State& state) {
+  state.total = align(std::max<std::size_t>(state.bytes, 4), 4);
+  state.memory = make_buffer(state.context, state.total, use_of(state.context));
+  state.buffer = state.memory.buffer.get();
+  take_mapping(state);
+}
+
+/// A buffer of the elements alone lies inside a larger one. Since only its address is asked for,
+/// the validation layer too knows what is outside.
+void allocate_zoned(RawBuffer::State& state) {
+  ContextState& context = state.context;
+  state.before = zone_bytes;
+  state.total = align(2 * zone_bytes + state.bytes, zone_bytes);
+  state.memory = make_buffer(context, state.total, use_of(context));
+  take_mapping(state);
+  const VkBufferCreateInfo info = buffer_info(std::max<std::size_t>(state.bytes, 1));
+  state.inner = create<OwnedBuffer>(context.link(), vkCreateBuffer, info, "vkCreateBuffer");
+  state.buffer = state.inner.get();
+  const Allocation& part = state.memory.allocation.get();
+  check(vkBindBufferMemory(context.link().device, state.buffer, part.memory,
+                           part.offset + zone_bytes),
+        "vkBindBufferMemory");
 }
 
 /// Whole pages of the host; the last byte of the elements is the last of the last page.
 void import_pages(RawBuffer::State& state) {
   ContextState& context = state.context;
   state.total = align(std::max<std::size_t>(state.bytes, 1), page_bytes());
-  state.start = state.total - state.bytes;
+  state.before = state.total - state.bytes;
+  state.start = state.before;
   state.pages = FencedPages(state.total);
   VkExternalMemoryBufferCreateInfo external{};
   external.sType = VK_STRUCTURE_TYPE_EXTERNAL_MEMORY_BUFFER_CREATE_INFO;
@@ -183,7 +210,7 @@ MemoryBuffer make_buffer(ContextState& context, std::size_t bytes, MemoryUse use
 }
 
 RawBuffer::State::~State() {
-  if (zone_entry) context.zoned.erase(*zone_entry);
+  if (guard_entry) context.guarded.erase(*guard_entry);
   context.memory_bytes -= counted;
   if (context.link().abandoned) pages.leak();
 }
@@ -199,15 +226,14 @@ RawBuffer::RawBuffer(Context& context, std::size_t bytes, std::size_t element_by
   State& state = *state_;
   state.bytes = bytes;
   const Guard guard = shared.options.guard;
-  if (guard == Guard::fences) {
-    import_pages(state);
-  } else {
-    state.start = guard == Guard::zones ? zone_bytes : 0;
-    allocate(state);
-  }
+  if (guard == Guard::none) allocate(state);
+  if (guard == Guard::zones) allocate_zoned(state);
+  if (guard == Guard::fences) import_pages(state);
   state.address = address_of(shared.link(), state.buffer) + state.start;
-  if (guard != Guard::none) poison_all(state);
-  if (guard == Guard::zones) state.zone_entry = shared.zoned.insert(shared.zoned.end(), &state);
+  if (guard != Guard::none) {
+    poison_all(state);
+    state.guard_entry = shared.guarded.insert(shared.guarded.end(), &state);
+  }
   shared.count_bytes(bytes);
   state.counted = bytes;
 }
@@ -220,17 +246,17 @@ RawBuffer& RawBuffer::operator=(RawBuffer&&) noexcept = default;
 void RawBuffer::write(const void* source, std::size_t byte_offset, std::size_t bytes) {
   if (bytes == 0) return;
   if (state_->mapped != nullptr)
-    std::memcpy(state_->mapped + state_->start + byte_offset, source, bytes);
+    std::memcpy(state_->mapped + state_->before + byte_offset, source, bytes);
   else
-    upload(*state_, static_cast<const std::byte*>(source), state_->start + byte_offset, bytes);
+    upload(*state_, static_cast<const std::byte*>(source), state_->before + byte_offset, bytes);
 }
 
 void RawBuffer::read(void* target, std::size_t byte_offset, std::size_t bytes) const {
   if (bytes == 0) return;
   if (state_->mapped != nullptr)
-    std::memcpy(target, state_->mapped + state_->start + byte_offset, bytes);
+    std::memcpy(target, state_->mapped + state_->before + byte_offset, bytes);
   else
-    download(*state_, static_cast<std::byte*>(target), state_->start + byte_offset, bytes);
+    download(*state_, static_cast<std::byte*>(target), state_->before + byte_offset, bytes);
 }
 
 std::size_t RawBuffer::bytes() const { return state_ == nullptr ? 0 : state_->bytes; }
@@ -238,19 +264,20 @@ std::uint64_t RawBuffer::address() const { return state_ == nullptr ? 0 : state_
 
 void check_zones(ContextState& context) {
   std::vector<std::byte> copy;
-  for (const RawBuffer::State* state : context.zoned) {
-    const std::size_t end = state->start + state->bytes;
+  for (const RawBuffer::State* state : context.guarded) {
+    const std::size_t end = state->before + state->bytes;
     const std::byte* bytes = state->mapped;
     if (bytes == nullptr) {
       copy.resize(state->total);
-      download(*state, copy.data(), 0, zone_bytes);
+      download(*state, copy.data(), 0, state->before);
       download(*state, copy.data() + end, end, state->total - end);
       bytes = copy.data();
     }
-    const bool before = !is_poison(bytes, zone_bytes);
-    if (before || !is_poison(bytes + end, state->total - end))
+    const bool broken_before = !is_poison(bytes, state->before);
+    if (broken_before || !is_poison(bytes + end, state->total - end))
       throw Error(ErrorKind::broken_guard,
-                  "something wrote " + std::string(before ? "before the start" : "past the end") +
+                  "something wrote " +
+                      std::string(broken_before ? "before the start" : "past the end") +
                       " of a buffer of " + std::to_string(state->bytes) + " bytes");
   }
 }

@@ -24,6 +24,16 @@ OwnedSampler make_nearest_sampler(const DeviceLink& link) {
   return create<OwnedSampler>(link, vkCreateSampler, info, "vkCreateSampler");
 }
 
+void choose(ContextState& state) {
+  const std::vector<VkPhysicalDevice> physicals = state.instance->devices();
+  std::vector<DeviceInfo> infos;
+  for (VkPhysicalDevice each : physicals)
+    infos.push_back(describe(each, static_cast<int>(infos.size())));
+  const auto chosen = static_cast<std::size_t>(choose_device(infos, state.options.device));
+  state.info = infos[chosen];
+  state.physical = physicals[chosen];
+}
+
 void find_clock(ContextState& state) {
   std::uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(state.physical, &count, nullptr);
@@ -52,14 +62,18 @@ Timing timing_of(const ContextState& state, const std::vector<std::uint64_t>& ti
 
 ContextState::ContextState(const ContextOptions& context_options,
                            std::unique_ptr<ValidationLog> validation_log)
-    : options(context_options), log(std::move(validation_log)), instance(log.get()) {
-  const std::vector<VkPhysicalDevice> physicals = instance.devices();
-  std::vector<DeviceInfo> infos;
-  for (VkPhysicalDevice each : physicals)
-    infos.push_back(describe(each, static_cast<int>(infos.size())));
-  const auto chosen = static_cast<std::size_t>(choose_device(infos, options.device));
-  info = infos[chosen];
-  physical = physicals[chosen];
+    : options(context_options), log(std::move(validation_log)) {
+  if (log != nullptr) {
+    // Which checks the layer may add depends on the device, so that is looked up first.
+    instance.emplace(nullptr, false);
+    choose(*this);
+    const bool gpu_assisted = can_assist(info);
+    instance.reset();
+    instance.emplace(log.get(), gpu_assisted);
+  } else {
+    instance.emplace(nullptr, false);
+  }
+  choose(*this);
   if (options.guard == Guard::fences && !info.host_memory_import)
     throw Error(ErrorKind::missing_feature,
                 "device " + info.name + " cannot fence buffers: it lacks " +
@@ -70,7 +84,7 @@ ContextState::ContextState(const ContextOptions& context_options,
   staged = options.force_staging || (info.type != "cpu" && info.type != "integrated");
   device.emplace(physical, info);
   memory.emplace(link(), physical);
-  submission.emplace(link(), queue_family, options.timeout_seconds);
+  submission.emplace(device->link, queue_family, options.timeout_seconds);
   nearest.emplace(make_nearest_sampler(link()));
   if (staged) staging = make_buffer(*this, staging_bytes, MemoryUse::staging);
 }
@@ -81,13 +95,12 @@ void ContextState::count_bytes(std::uint64_t bytes) {
 }
 
 Context::Context(const ContextOptions& options)
-    : state_(std::make_unique<ContextState>(options, make_log(options))) {}
+    : state_(std::make_unique<ContextState>(options, make_log(options))) {
+  state_->info.cuts_loops_short = cuts_loops_short(*this);
+}
 
 Context::~Context() {
-  // Destroying what an endless shader still uses would wait for it for ever, so it is left alone.
-  if (!state_->submission->unfinished() || state_->submission->finishes_within(1)) return;
-  state_->device->link.abandoned = true;
-  static_cast<void>(state_.release());
+  if (state_->link().abandoned) static_cast<void>(state_.release());
 }
 
 const DeviceInfo& Context::info() const { return state_->info; }

@@ -120,7 +120,8 @@ void describe_versioned(VkPhysicalDevice device, DeviceInfo& info) {
   all.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
   all.pNext = &driver;
   vkGetPhysicalDeviceProperties2(device, &all);
-  info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
+  info.driver = driver.driverName;
+  if (driver.driverInfo[0] != '\0') info.driver += std::string(" ") + driver.driverInfo;
   info.is_mesa_software = driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE;
   info.is_swiftshader = driver.driverID == VK_DRIVER_ID_GOOGLE_SWIFTSHADER;
   info.subgroup_size = static_cast<int>(subgroup.subgroupSize);
@@ -161,7 +162,7 @@ std::string list_text(const std::vector<DeviceInfo>& devices) {
 
 }  // namespace
 
-Instance::Instance(ValidationLog* log) {
+Instance::Instance(ValidationLog* log, bool gpu_assisted) {
   load_loader();
   VkApplicationInfo application{};
   application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
@@ -184,7 +185,7 @@ Instance::Instance(ValidationLog* log) {
     messenger = messenger_info(*log);
     features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
     features.pNext = &messenger;
-    features.enabledValidationFeatureCount = std::size(checks);
+    features.enabledValidationFeatureCount = gpu_assisted ? std::size(checks) : 1;
     features.pEnabledValidationFeatures = checks;
     info.pNext = &features;
     info.enabledLayerCount = 1;
@@ -285,7 +286,7 @@ int choose_device(const std::vector<DeviceInfo>& devices, const std::string& nam
 }
 
 std::vector<DeviceInfo> list_devices() {
-  const Instance instance(nullptr);
+  const Instance instance(nullptr, false);
   std::vector<DeviceInfo> list;
   for (VkPhysicalDevice device : instance.devices())
     list.push_back(describe(device, static_cast<int>(list.size())));

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdio>
 
 #include "gpu/core/vulkan_state.h"
 
@@ -12,6 +13,12 @@ std::uint64_t nanoseconds(double seconds) {
   return static_cast<std::uint64_t>(std::clamp(seconds, 0.0, 1e9) * 1e9);
 }
 
+std::string seconds_text(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%g", seconds);
+  return text;
+}
+
 VkCommandBuffer restart(VkCommandBuffer commands) {
   check(vkResetCommandBuffer(commands, 0), "vkResetCommandBuffer");
   VkCommandBufferBeginInfo info{};
@@ -23,7 +30,7 @@ VkCommandBuffer restart(VkCommandBuffer commands) {
 
 }  // namespace
 
-Submission::Submission(const DeviceLink& link, std::uint32_t queue_family, double timeout_seconds)
+Submission::Submission(DeviceLink& link, std::uint32_t queue_family, double timeout_seconds)
     : link_(link), timeout_seconds_(timeout_seconds) {
   vkGetDeviceQueue(link.device, queue_family, 0, &queue_);
   VkCommandPoolCreateInfo pool{};
@@ -85,22 +92,15 @@ void Submission::submit_and_wait(VkCommandBuffer commands) {
   const VkResult submitted = vkQueueSubmit2(queue_, 1, &submit, fence);
   if (submitted == VK_ERROR_DEVICE_LOST) broken_ = "vkQueueSubmit2 failed";
   check(submitted, "vkQueueSubmit2");
-  unfinished_ = true;
   const VkResult waited =
       vkWaitForFences(link_.device, 1, &fence, VK_TRUE, nanoseconds(timeout_seconds_));
-  unfinished_ = waited != VK_SUCCESS;
   if (waited == VK_TIMEOUT) {
-    broken_ = "a submission did not end within " + std::to_string(timeout_seconds_) + " s";
+    link_.abandoned = true;
+    broken_ = "a submission did not end within " + seconds_text(timeout_seconds_) + " s";
     throw Error(ErrorKind::timed_out, broken_);
   }
   if (waited < 0) broken_ = "vkWaitForFences failed: " + result_name(waited);
   check(waited, "vkWaitForFences");
-}
-
-bool Submission::finishes_within(double seconds) const {
-  const VkFence fence = fence_.get();
-  const VkResult waited = vkWaitForFences(link_.device, 1, &fence, VK_TRUE, nanoseconds(seconds));
-  return waited != VK_TIMEOUT;
 }
 
 void Submission::make_query_pool(VkCommandBuffer commands) {

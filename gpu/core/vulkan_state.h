@@ -97,6 +97,9 @@ struct ValidationLog {
 /// How the layer reports to `log`.
 VkDebugUtilsMessengerCreateInfoEXT messenger_info(ValidationLog& log);
 
+/// Whether the checks that the layer puts into shaders can be trusted on the device.
+bool can_assist(const DeviceInfo& device);
+
 /// @throws Error  the layer is not installed.
 void require_validation_layer();
 
@@ -106,7 +109,7 @@ void require_validation_layer();
 class Instance {
  public:
   /// @throws Error  no loader, no driver, no layer.
-  explicit Instance(ValidationLog* log);
+  Instance(ValidationLog* log, bool gpu_assisted);
   ~Instance();
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
@@ -220,7 +223,7 @@ struct MemoryBuffer {
 /// What one submission after another uses again: command buffers, fence, queries, descriptor pools.
 class Submission {
  public:
-  Submission(const DeviceLink& link, std::uint32_t queue_family, double timeout_seconds);
+  Submission(DeviceLink& link, std::uint32_t queue_family, double timeout_seconds);
 
   VkCommandBuffer begin();  ///< for Context::run
   VkCommandBuffer
@@ -234,14 +237,10 @@ class Submission {
   /// A set for one dispatch; lives until the next begin().
   VkDescriptorSet allocate_set(VkDescriptorSetLayout layout);
 
-  bool unfinished() const { return unfinished_; }
-  /// Whether what ran past its time has ended meanwhile.
-  bool finishes_within(double seconds) const;
-
  private:
   void make_query_pool(VkCommandBuffer commands);
 
-  const DeviceLink& link_;
+  DeviceLink& link_;
   double timeout_seconds_;
   VkQueue queue_ = VK_NULL_HANDLE;
   OwnedCommandPool command_pool_;
@@ -252,7 +251,6 @@ class Submission {
   std::size_t timestamps_ = 0;
   std::vector<OwnedDescriptorPool> descriptor_pools_;
   std::size_t descriptor_pools_used_ = 0;
-  bool unfinished_ = false;
   std::string broken_;  ///< why nothing can be submitted any more
 };
 
@@ -264,7 +262,7 @@ struct ContextState {
 
   ContextOptions options;
   std::unique_ptr<ValidationLog> log;
-  Instance instance;
+  std::optional<Instance> instance;
   DeviceInfo info;
   VkPhysicalDevice physical = VK_NULL_HANDLE;
   VkPhysicalDeviceProperties properties{};
@@ -277,7 +275,7 @@ struct ContextState {
   std::optional<Submission> submission;
   std::optional<OwnedSampler> nearest;  ///< for sampled images without a sampler
   MemoryBuffer staging;
-  std::list<RawBuffer::State*> zoned;  ///< buffers whose zones are checked after each run
+  std::list<RawBuffer::State*> guarded;  ///< buffers whose zones are checked after each run
   std::uint64_t memory_bytes = 0;
   std::uint64_t peak_memory_bytes = 0;
   bool recording = false;
@@ -285,6 +283,9 @@ struct ContextState {
   const DeviceLink& link() const { return device->link; }
   void count_bytes(std::uint64_t bytes);
 };
+
+/// Whether loops of 65,536 or 300 x 300 steps end early, as Mesa 22.3's do without a word.
+bool cuts_loops_short(Context& context);
 
 /// One full memory barrier; what comes before it, of any kind, is finished and visible after it.
 void full_barrier(VkCommandBuffer commands);
@@ -301,7 +302,7 @@ class FencedPages {
   FencedPages& operator=(FencedPages&& other) noexcept;
   std::byte* data() const { return data_; }
   std::size_t bytes() const { return bytes_; }
-  void leak() { data_ = nullptr; }
+  void leak() { data_ = nullptr; }  ///< for a device that was given up on
 
  private:
   std::byte* data_ = nullptr;
@@ -314,15 +315,17 @@ struct RawBuffer::State {
   ContextState& context;
   FencedPages pages;
   OwnedMemory imported;
-  MemoryBuffer memory;
-  VkBuffer buffer = VK_NULL_HANDLE;
-  std::byte* mapped = nullptr;  ///< of the first byte of the VkBuffer; null: staged
-  std::size_t start = 0;        ///< of the elements in the VkBuffer
-  std::size_t bytes = 0;        ///< of the elements
-  std::size_t total = 0;        ///< of the VkBuffer
-  std::uint64_t address = 0;    ///< of the elements
-  std::uint64_t counted = 0;    ///< in ContextState::memory_bytes
-  std::optional<std::list<RawBuffer::State*>::iterator> zone_entry;
+  MemoryBuffer memory;  ///< with the zones
+  OwnedBuffer inner;    ///< without: what the validation layer takes the addresses from
+  VkBuffer buffer = VK_NULL_HANDLE;  ///< what commands use
+  std::size_t start = 0;             ///< of the elements in `buffer`
+  std::byte* mapped = nullptr;       ///< of the first byte of `memory`; null: staged
+  std::size_t before = 0;            ///< bytes of `memory` before the elements
+  std::size_t bytes = 0;             ///< of the elements
+  std::size_t total = 0;             ///< of `memory`
+  std::uint64_t address = 0;         ///< of the elements
+  std::uint64_t counted = 0;         ///< in ContextState::memory_bytes
+  std::optional<std::list<RawBuffer::State*>::iterator> guard_entry;
 };
 
 /// A VkBuffer of our own use.
