@@ -11,7 +11,8 @@
 namespace parity {
 
 /// Loads glTF 2.0 (.gltf with its files beside it, .glb), checked completely, in the pose that the
-/// file starts with.
+/// file starts with; or a mesh (.obj, .ply, .stl, .off) as a scene of one node, see
+/// scene_from_mesh.
 ///
 /// Read: the core specification and EXT_mesh_gpu_instancing, EXT_meshopt_compression,
 /// KHR_draco_mesh_compression, KHR_lights_punctual, KHR_materials_emissive_strength,
