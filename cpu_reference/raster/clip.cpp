@@ -26,7 +26,10 @@ double distance(const Plane& plane, const dvec4& position) {
   return glm::dot(plane.normal, position) - plane.offset;
 }
 
+/// Rounding can bend a polygon without width so that a plane cuts it more than twice; what is then
+/// too much has no area and is left out.
 void append(ClippedPolygon& polygon, dvec4 position, dvec3 barycentric) {
+  if (polygon.count == polygon.position.size()) return;
   polygon.position[polygon.count] = position;
   polygon.barycentric[polygon.count] = barycentric;
   ++polygon.count;

@@ -8,7 +8,7 @@ namespace parity::cpu {
 
 int band_count(int height) {
   const int threads = omp_get_max_threads();
-  const int smallest_band = 16;
+  const int smallest_band = 32;
   return threads == 1 ? 1 : std::clamp(height / smallest_band, 1, 4 * threads);
 }
 

@@ -80,7 +80,7 @@ inline Span inside_span(Span span, const std::array<std::int64_t, 3>& values,
     else if (steps[i] < 0)
       end = std::min(end, floor_divide(values[i], -steps[i]) + 1);
     else if (values[i] < 0)
-      end = begin;
+      end = span.begin;
   }
   begin = std::min(begin, std::int64_t(span.end));
   return {int(begin), int(std::max(begin, end))};
@@ -155,7 +155,7 @@ template <class Draw>
 void rasterize(std::span<const SnappedTriangle> triangles, const SampleGrid& grid, int width,
                int height, Draw&& draw) {
   const int bands = band_count(height);
-#pragma omp parallel for schedule(dynamic)
+#pragma omp parallel for schedule(dynamic) if (bands > 1)
   for (int b = 0; b < bands; ++b) {
     const PixelBox band{0, int(std::int64_t(height) * b / bands), width,
                         int(std::int64_t(height) * (b + 1) / bands)};

@@ -26,6 +26,9 @@ Outcode outcode(vec4 p, float guard) {
          Outcode(!(p.y <= reach)) << 6;
 }
 
+/// As many elements are worth a thread.
+constexpr std::size_t chunk_size = 4096;
+
 class SetUp {
  public:
   SetUp(const TriangleList& list, Snapping snapping, bool mirrored)
@@ -37,11 +40,10 @@ class SetUp {
 
   std::vector<SnappedTriangle> run() {
     place_vertices();
-    constexpr std::size_t chunk_size = 4096;
     const std::size_t triangle_count = list_.triangles.size();
     std::vector<std::vector<SnappedTriangle>> chunks((triangle_count + chunk_size - 1) /
                                                      chunk_size);
-#pragma omp parallel for schedule(dynamic)
+#pragma omp parallel for schedule(dynamic) if (chunks.size() > 1)
     for (std::size_t c = 0; c < chunks.size(); ++c) {
       const std::size_t end = std::min(triangle_count, (c + 1) * chunk_size);
       chunks[c].reserve(end - c * chunk_size);
@@ -57,7 +59,7 @@ class SetUp {
 
  private:
   void place_vertices() {
-#pragma omp parallel for
+#pragma omp parallel for if (vertices_.size() > chunk_size)
     for (std::size_t i = 0; i < vertices_.size(); ++i) {
       const vec4 p = list_.clip_positions[i];
       vertices_[i].outside = outcode(p, float(guard_));

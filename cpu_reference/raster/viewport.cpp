@@ -1,12 +1,19 @@
 #include "cpu_reference/raster/viewport.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace parity::cpu {
 namespace {
 
+/// A vertex clipped out of very large numbers may miss the guard band by more than rounding of its
+/// own size. It stays near: 2^24 steps from the origin. NaN goes there, too.
+constexpr float farthest = 0x1p24f;
+
 /// Round to nearest, ties to even: the default rounding mode.
-int nearest(float value) { return int(std::nearbyint(value)); }
+int nearest(float value) {
+  return int(std::nearbyint(std::max(-farthest, std::min(farthest, value))));
+}
 
 int snap_mesa(float coordinate, float reciprocal_w, float half_size, int samples) {
   const float ndc = coordinate * reciprocal_w;

@@ -36,7 +36,7 @@ SampleGrid sample_grid(int samples, Snapping snapping);
 /// order.
 ///
 /// @param clip  w > 0, |x / w| and |y / w| at most 65536 px / (half the size): inside the guard
-///              band, so that the point fits an int.
+///              band. What is farther out is held at 2^24 steps.
 ///
 /// Source: conformance 1.4 (lp_setup_tri.c, draw_llvm.c of Mesa; VertexRoutine.cpp of SwiftShader).
 ivec2 snap(vec4 clip, int width, int height, int samples, Snapping snapping);
