@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -92,19 +93,27 @@ class ValueBound {
  private:
   static double largest(dvec4 v) { return std::max({v.x, v.y, v.z, v.w}); }
 
-  const Interpolant& of_;
+  Interpolant of_;
   double denominator_error_ = 0.0;
   dvec4 numerator_error_{0.0};
 };
 
-/// Calls visit(x, y, triangle) for every pixel that something covers, with the last that does.
-template <class Visit>
-void visit_last(const TriangleList& list, Snapping snapping, Visit&& visit) {
+/// For every pixel that something covers, calls visit(x, y, prepared) with what prepare(triangle)
+/// makes of the last triangle that does.
+template <class Prepare, class Visit>
+void visit_last(const TriangleList& list, Snapping snapping, Prepare&& prepare, Visit&& visit) {
   const Coverage coverage = span_coverage(list, snapping);
+  std::optional<decltype(prepare(0u))> prepared;
+  std::uint32_t prepared_for = 0;
   std::size_t pixel = 0;
   for (int y = 0; y < list.height; ++y)
-    for (int x = 0; x < list.width; ++x, ++pixel)
-      if (coverage.last[pixel] != 0) visit(x, y, coverage.last[pixel] - 1);
+    for (int x = 0; x < list.width; ++x, ++pixel) {
+      const std::uint32_t last = coverage.last[pixel];
+      if (last == 0) continue;
+      if (last != prepared_for) prepared.emplace(prepare(last - 1));
+      prepared_for = last;
+      visit(x, y, *prepared);
+    }
 }
 
 }  // namespace
@@ -129,9 +138,9 @@ TrianglePlanes triangle_planes(const std::array<vec4, 3>& clip, int width, int h
 Grid<dvec4> interpolate(const TriangleList& list, const Varyings& varyings, Snapping snapping) {
   check(list, varyings);
   Grid<dvec4> values{list.width, list.height, dvec4(std::numeric_limits<double>::quiet_NaN())};
-  visit_last(list, snapping, [&](int x, int y, std::uint32_t triangle) {
-    values(x, y) = value_at(interpolant(list, varyings, triangle), x + 0.5, y + 0.5);
-  });
+  visit_last(
+      list, snapping, [&](std::uint32_t triangle) { return interpolant(list, varyings, triangle); },
+      [&](int x, int y, const Interpolant& of) { values(x, y) = value_at(of, x + 0.5, y + 0.5); });
   return values;
 }
 
@@ -139,10 +148,12 @@ Grid<double> interpolate_bound(const TriangleList& list, const Varyings& varying
                                Snapping snapping) {
   check(list, varyings);
   Grid<double> bounds{list.width, list.height, std::numeric_limits<double>::quiet_NaN()};
-  visit_last(list, snapping, [&](int x, int y, std::uint32_t triangle) {
-    const Interpolant of = interpolant(list, varyings, triangle);
-    bounds(x, y) = ValueBound(of, list, snapping).at(x + 0.5, y + 0.5);
-  });
+  visit_last(
+      list, snapping,
+      [&](std::uint32_t triangle) {
+        return ValueBound(interpolant(list, varyings, triangle), list, snapping);
+      },
+      [&](int x, int y, const ValueBound& of) { bounds(x, y) = of.at(x + 0.5, y + 0.5); });
   return bounds;
 }
 

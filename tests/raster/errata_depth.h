@@ -21,7 +21,8 @@ inline bool depth_is_that_of_the_true_point(const DepthAt& depth_at) {
   // The ray through the pixel meets the plane where 1 / distance is the mean of the corners'.
   const double distance = 1.0 / (screen.x / z.x + screen.y / z.y + screen.z / z.z);
   const dvec3 depths{depth(z.x), depth(z.y), depth(z.z)};
-  return std::abs(depth_at(screen, depths, z) - depth(distance)) < 1e-14;  // some ten roundings
+  // Implementations may hold corners as floats: a few 2^-24 of depths up to 1.
+  return std::abs(depth_at(screen, depths, z) - depth(distance)) < 8.0 * 0x1p-24;
 }
 
 /// Depth of a point at a distance, for reverse-Z.
