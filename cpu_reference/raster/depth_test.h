@@ -19,10 +19,8 @@ struct DepthTest {
   bool passes(float depth, float stored) const {
     return mode == DepthMode::reverse_z ? depth > stored : depth < stored;
   }
-  /// Positive: farther.
-  double farther_by(double depth, double than) const {
-    return mode == DepthMode::reverse_z ? than - depth : depth - than;
-  }
+  /// Smaller is nearer in every mode.
+  double distance(double depth) const { return mode == DepthMode::reverse_z ? -depth : depth; }
 };
 
 /// Depths of an element at the samples of a pixel.

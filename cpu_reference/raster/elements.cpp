@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 #include "cpu_reference/raster/painter.h"
 
@@ -10,6 +11,14 @@ namespace parity::cpu {
 namespace {
 
 const Material default_material{};
+
+void check(const Primitive& p) {
+  for (const std::uint32_t i : p.indices)
+    if (i >= p.positions.size())
+      throw std::invalid_argument("cpu::render: an index is " + std::to_string(i) +
+                                  ", must be less than the " + std::to_string(p.positions.size()) +
+                                  " positions");
+}
 
 std::uint32_t corner_count(Topology topology) {
   return topology == Topology::points ? 1 : topology == Topology::lines ? 2 : 3;
@@ -36,9 +45,9 @@ std::vector<PlacedDraw> place_draws(const Scene& scene, const Frame& frame) {
     PlacedDraw p;
     p.draw = &draw;
     p.primitive = &scene.meshes[std::size_t(draw.mesh)].primitives[std::size_t(draw.primitive)];
+    check(*p.primitive);
     p.material =
         draw.material < 0 ? &default_material : &scene.materials[std::size_t(draw.material)];
-    p.clip = transform(draw.clip_from_object, p.primitive->positions);
     p.first_element = std::uint32_t(first);
     p.element_count =
         std::uint32_t(p.primitive->indices.size() / corner_count(p.primitive->topology));
@@ -135,6 +144,22 @@ float painter_key(const PlacedDraw& placed, std::uint32_t triangle, const Frame&
   return std::isnan(key) ? 0.0f : key;
 }
 
+/// The vertex stage and the pieces of each draw. Scenes of many draws are spread over the threads
+/// draw by draw; the loops inside of a lone draw are parallel themselves.
+std::vector<std::vector<SnappedTriangle>> draw_pieces(Elements& elements, const FrameOptions& o,
+                                                      Snapping snapping) {
+  std::vector<std::vector<SnappedTriangle>> pieces(elements.draws.size());
+#pragma omp parallel for schedule(dynamic) if (elements.draws.size() > 1)
+  for (std::size_t d = 0; d < elements.draws.size(); ++d) {
+    PlacedDraw& placed = elements.draws[d];
+    placed.clip = transform(placed.draw->clip_from_object, placed.primitive->positions);
+    pieces[d] = placed.primitive->topology == Topology::triangles
+                    ? triangle_pieces(placed, o, snapping)
+                    : line_and_point_pieces(placed, o, elements.grid);
+  }
+  return pieces;
+}
+
 /// Blended pieces in the order of the scene, each with its key.
 struct Unsorted {
   std::vector<Piece> pieces;
@@ -142,11 +167,11 @@ struct Unsorted {
 };
 
 void append(Elements& elements, Unsorted& blended, std::uint32_t draw,
-            std::vector<SnappedTriangle>& pieces, const Frame& frame) {
+            const std::vector<SnappedTriangle>& pieces, const Frame& frame) {
   const PlacedDraw& placed = elements.draws[draw];
   const bool blends = placed.primitive->topology == Topology::triangles &&
                       placed.material->alpha_mode == AlphaMode::blend;
-  for (SnappedTriangle& shape : pieces) {
+  for (SnappedTriangle shape : pieces) {
     if (blends) blended.keys.push_back(painter_key(placed, shape.triangle, frame));
     shape.triangle += placed.first_element;
     (blends ? blended.pieces : elements.opaque).push_back({shape, draw});
@@ -167,20 +192,23 @@ Elements place_elements(const Scene& scene, const Frame& frame, Snapping snappin
   Elements elements;
   elements.draws = place_draws(scene, frame);
   elements.grid = sample_grid(o.samples, snapping);
+  const std::vector<std::vector<SnappedTriangle>> pieces = draw_pieces(elements, o, snapping);
   Unsorted blended;
   for (std::uint32_t d = 0; d < elements.draws.size(); ++d) {
     const PlacedDraw& placed = elements.draws[d];
-    const bool triangles = placed.primitive->topology == Topology::triangles;
-    if (triangles) elements.triangle_count += placed.element_count;
-    std::vector<SnappedTriangle> pieces = triangles
-                                              ? triangle_pieces(placed, o, snapping)
-                                              : line_and_point_pieces(placed, o, elements.grid);
-    append(elements, blended, d, pieces, frame);
+    if (placed.primitive->topology == Topology::triangles)
+      elements.triangle_count += placed.element_count;
+    append(elements, blended, d, pieces[d], frame);
   }
   elements.blended.reserve(blended.pieces.size());
   for (const std::uint32_t i : painter_order(blended.keys))
     elements.blended.push_back(blended.pieces[i]);
   return elements;
+}
+
+bool is_masked(const PlacedDraw& draw) {
+  return draw.material->alpha_mode == AlphaMode::mask &&
+         draw.primitive->topology == Topology::triangles;
 }
 
 ClippedLine clip_line(vec4 from, vec4 to) {

@@ -21,6 +21,9 @@ struct PlacedDraw {
   std::uint32_t element_count = 0;  ///< points, lines or triangles
 };
 
+/// Whether its fragments are dropped where alpha is below the cutoff. Lines and points never are.
+bool is_masked(const PlacedDraw& draw);
+
 /// What is rasterised: a triangle, a part of a clipped one, or half of a line's or point's
 /// rectangle. `shape.triangle` is the element, counted through all draws.
 struct Piece {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cpu_reference/raster/band.h"
+#include "cpu_reference/raster/border.h"
 
 namespace parity::cpu {
 namespace {
@@ -53,28 +54,76 @@ Bins bin(const std::vector<Piece>& pieces, const Elements& elements, const Frame
   return bins;
 }
 
-void draw_band(const RenderJob& job, int band, const std::vector<std::uint32_t>& opaque,
-               const std::vector<std::uint32_t>& blended, Rendered& rendered) {
+/// Elements whose borders are in doubt, by the bands they reach.
+using DoubtBins = std::vector<std::vector<ElementName>>;
+
+void add_doubt(const RenderJob& job, ElementName name, DoubtBins& bins) {
+  const PlacedDraw& placed = job.elements.draws[name.draw];
+  const FrameOptions& o = job.frame.options;
+  const Planes planes = element_planes(placed, name.element, o.width, o.height);
+  const ElementError error(placed, name.element, planes, job.frame, job.options.device);
+  const PixelBox box = ElementBorder(placed, name.element, planes, error, job.frame).box();
+  if (box.empty()) return;
+  for (int b = box.top / band_rows; b <= (box.bottom - 1) / band_rows; ++b)
+    bins[std::size_t(b)].push_back(name);
+}
+
+/// Triangles count where they have pieces (culled ones have none), lines and points always.
+DoubtBins doubtful_borders(const RenderJob& job, const std::vector<Piece>& pieces,
+                           bool lines_and_points) {
+  DoubtBins bins(std::size_t((job.frame.options.height + band_rows - 1) / band_rows));
+  if (!job.options.bounds) return bins;
+  std::uint32_t last = 0xffffffff;
+  for (const Piece& piece : pieces) {
+    const PlacedDraw& placed = job.elements.draws[piece.draw];
+    const std::uint32_t element = piece.shape.triangle;
+    if (element == last || placed.primitive->topology != Topology::triangles) continue;
+    last = element;
+    if (has_doubtful_border(placed, element)) add_doubt(job, {piece.draw, element}, bins);
+  }
+  for (std::uint32_t d = 0; lines_and_points && d < job.elements.draws.size(); ++d) {
+    const PlacedDraw& placed = job.elements.draws[d];
+    if (placed.primitive->topology == Topology::triangles) continue;
+    for (std::uint32_t i = 0; i < placed.element_count; ++i)
+      add_doubt(job, {d, placed.first_element + i}, bins);
+  }
+  return bins;
+}
+
+/// What each band draws.
+struct BandWork {
+  Bins opaque;
+  Bins blended;
+  DoubtBins opaque_doubt;
+  DoubtBins blended_doubt;
+};
+
+void draw_band(const RenderJob& job, int band, const BandWork& work, Rendered& rendered) {
   const FrameOptions& o = job.frame.options;
   const PixelBox box{0, band * band_rows, o.width, std::min(o.height, (band + 1) * band_rows)};
+  const std::size_t b = std::size_t(band);
   Band rows(job, box);
-  for (const std::uint32_t piece : opaque) rows.draw_opaque(job.elements.opaque[piece]);
+  for (const std::uint32_t piece : work.opaque[b]) rows.draw_opaque(job.elements.opaque[piece]);
+  for (const ElementName& name : work.opaque_doubt[b]) rows.doubt_border(name, false);
   rows.shade();
-  for (const std::uint32_t piece : blended) rows.draw_blended(job.elements.blended[piece]);
+  for (const std::uint32_t piece : work.blended[b]) rows.draw_blended(job.elements.blended[piece]);
+  for (const ElementName& name : work.blended_doubt[b]) rows.doubt_border(name, true);
   rows.store(rendered);
 }
 
 void draw_bands(const RenderJob& job, const std::function<void(double)>& progress,
                 Rendered& rendered) {
-  const Bins opaque = bin(job.elements.opaque, job.elements, job.frame.options);
-  const Bins blended = bin(job.elements.blended, job.elements, job.frame.options);
-  const int count = int(opaque.size());
+  const Elements& e = job.elements;
+  const BandWork work{bin(e.opaque, e, job.frame.options), bin(e.blended, e, job.frame.options),
+                      doubtful_borders(job, e.opaque, true),
+                      doubtful_borders(job, e.blended, false)};
+  const int count = int(work.opaque.size());
   int done = 0;
   std::exception_ptr failure;
 #pragma omp parallel for schedule(dynamic)
   for (int b = 0; b < count; ++b) {
     try {
-      draw_band(job, b, opaque[std::size_t(b)], blended[std::size_t(b)], rendered);
+      draw_band(job, b, work, rendered);
 #pragma omp critical(parity_render_progress)
       if (progress) progress(double(++done) / count);
     } catch (...) {
@@ -96,6 +145,12 @@ Rendered blank(const FrameOptions& o, const RenderOptions& options) {
     r.ambiguous = {o.width, o.height};
   }
   return r;
+}
+
+std::uint64_t memory_bytes(const Elements& elements) {
+  std::uint64_t bytes = (elements.opaque.size() + elements.blended.size()) * sizeof(Piece);
+  for (const PlacedDraw& draw : elements.draws) bytes += draw.clip.size() * sizeof(vec4);
+  return bytes;
 }
 
 std::vector<dvec2> sample_places_in_pixels(int samples) {
@@ -123,6 +178,7 @@ Rendered render(const Scene& scene, const Frame& frame, const RenderOptions& opt
   draw_bands(job, progress, rendered);
   clock.finish("raster");
   rendered.picture.triangle_count = elements.triangle_count;
+  rendered.picture.memory_bytes = textures.memory_bytes() + memory_bytes(elements);
   return rendered;
 }
 

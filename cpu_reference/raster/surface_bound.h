@@ -1,5 +1,12 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
+
+#include "cpu_reference/raster/depth_test.h"
+#include "cpu_reference/raster/elements.h"
+#include "cpu_reference/raster/surface.h"
+
 namespace parity::cpu {
 
 /// What a device may do differently from exact arithmetic. The defaults are Vulkan's limits on the
@@ -12,5 +19,77 @@ struct DeviceLimits {
   double srgb_decode_codes = 0.5;  ///< error of decoding a texel, in codes of 8 bits
   bool half_color = true;          ///< colour targets of 16-bit floats, else 32
 };
+
+/// How far a device may be from the reference in what varies over an element. A value a = n / d
+/// with n and d affine in the window may be off by
+///   |grad a| r                             vertices moved by snapping: r = sqrt2 2^-(b+1) times
+///   the
+///                                          sum of |screen barycentrics|, 1 inside
+///   (e(n) + |a| e(d)) / (d - e(d))         float planes: e(n) = 8 2^-24 max(|n0| + |n_x| W +
+///                                          |n_y| H, |n_i|) + 4 2^-24 max|n_i| L^2 / 2A
+///   11 2^-23 |a|                           the quotient
+/// Snapping moves n and d together, so it is counted once, on a. A clipped element's new vertices
+/// are off by 4 ulp of its largest clip coordinate c, which moves what is seen at a pixel by at
+/// most 4 2^-24 c max(W, H) / w pixels more.
+///
+/// Source: conformance 1.3 ("varyings, z"), with the set-up term of interpolate_bound.
+class ElementError {
+ public:
+  ElementError(const PlacedDraw& draw, std::uint32_t element, const Planes& planes,
+               const Frame& frame, const DeviceLimits& limits);
+
+  /// Largest deviation at the centre of pixel (x, y) of a varying with these values at the
+  /// vertices.
+  double varying(const std::array<double, 3>& values, int x, int y) const;
+
+  /// The same of its change from the pixel to the one `step` away, in its 2x2 quad.
+  double difference(const std::array<double, 3>& values, int x, int y, ivec2 step) const;
+
+  /// Of the depth at a place in pixel (x, y).
+  double depth(int x, int y, dvec2 place, const DepthTest& test) const;
+
+  /// How far an edge may be from where it should be, seen at a point: px.
+  double edge(double x, double y) const;
+
+  bool clipped() const { return clipped_; }
+
+ private:
+  double moved(double x, double y) const;
+  double rounding(const dvec3& plane, double largest) const;
+  dvec3 plane_of(const std::array<double, 3>& values) const;
+  double largest_over_w(const std::array<double, 3>& values) const;
+
+  Planes planes_;
+  std::array<double, 3> w_{};
+  std::array<double, 3> z_{};
+  double width_;
+  double height_;
+  double snap_;         ///< px
+  double slenderness_;  ///< L^2 / 2A
+  double per_pixel_;    ///< L / 2A
+  bool clipped_;
+  double clip_error_ = 0;  ///< px times w
+};
+
+/// A colour, how far a right device may be from it, and whether a choice of texel or mip level is
+/// within its error. RGB is not multiplied by alpha.
+struct BoundedColor {
+  dvec4 value{0.0};
+  dvec4 bound{0.0};
+  bool in_doubt = false;
+};
+
+/// shade_at with its bound: every input of the shading (varyings, lookups at moved coordinates and
+/// levels of detail) is moved by its error, up and down, and the absolute changes are added up; the
+/// float arithmetic of the shading itself is enclosed by Interval.
+BoundedColor shade_with_bound(const PlacedDraw& draw, std::uint32_t element,
+                              const ElementSurface& surface, const ElementError& error,
+                              const ShadingScene& scene, const DeviceLimits& limits, int x, int y,
+                              bool back);
+
+/// alpha_at with its bound, in the channel w.
+BoundedColor alpha_with_bound(const PlacedDraw& draw, std::uint32_t element,
+                              const ElementSurface& surface, const ElementError& error,
+                              const DeviceLimits& limits, int x, int y);
 
 }  // namespace parity::cpu
