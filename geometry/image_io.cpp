@@ -11,8 +11,6 @@
 namespace parity {
 namespace {
 
-constexpr std::size_t max_file_bytes = std::size_t(1) << 31;
-
 template <typename Texel>
 Grid<vec4> decoded_from_srgb(const Grid<Texel>& texels, double largest) {
   std::vector<float> table(std::size_t(largest) + 1);
@@ -66,6 +64,10 @@ Grid<u8vec4> decode_image(std::span<const std::byte> bytes, const std::string& n
   throw InputError(name, "is neither a PNG nor a JPEG");
 }
 
+bool is_display_referred(std::span<const std::byte> bytes) {
+  return detail::is_png(bytes) || detail::is_jpeg(bytes);
+}
+
 Grid<vec4> decode_linear_image(std::span<const std::byte> bytes, const std::string& name) {
   if (detail::is_png(bytes))
     return detail::is_16_bit_png(bytes)
@@ -79,7 +81,7 @@ Grid<vec4> decode_linear_image(std::span<const std::byte> bytes, const std::stri
 }
 
 Grid<vec4> load_image(const std::filesystem::path& path) {
-  return decode_linear_image(read_file(path, max_file_bytes), path.string());
+  return decode_linear_image(read_file(path, max_image_bytes), path.string());
 }
 
 Grid<u8vec4> display_image(const Grid<vec4>& linear) {

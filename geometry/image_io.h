@@ -14,6 +14,8 @@
 /// its bytes can hold, is refused before anything is allocated.
 namespace parity {
 
+constexpr std::size_t max_image_bytes = std::size_t(1) << 31;
+
 /// A further channel of an EXR, with its layer: "albedo.R", "N.X", "Z".
 struct ImageChannel {
   std::string name;
@@ -33,6 +35,9 @@ struct ImageMetadata {
 /// @throws InputError  neither of the two, damaged, cut short, or too large.
 Grid<u8vec4> decode_image(std::span<const std::byte> bytes, const std::string& name);
 
+/// Are these the first bytes of a PNG or a JPEG, which hold what a screen shows, and not light?
+bool is_display_referred(std::span<const std::byte> bytes);
+
 /// A picture as linear RGBA, row 0 on top; alpha (linear itself) 1 where the file has none.
 /// The format is recognised by the first bytes:
 ///   PNG   decoded from sRGB, 16 bits kept; gAMA and iCCP are ignored
@@ -48,9 +53,9 @@ Grid<u8vec4> decode_image(std::span<const std::byte> bytes, const std::string& n
 /// Source: PNG (ISO/IEC 15948); Ward, "Real Pixels", Graphics Gems II; OpenEXR 3.1.
 Grid<vec4> decode_linear_image(std::span<const std::byte> bytes, const std::string& name);
 
-/// The same from a file.
+/// The same from a file of at most max_image_bytes.
 ///
-/// @throws InputError  missing, a folder, or as decode_linear_image.
+/// @throws InputError  missing, a folder, too large, or as decode_linear_image.
 Grid<vec4> load_image(const std::filesystem::path& path);
 
 /// Display-referred 8-bit sRGB, rounded to nearest; clamped to [0, 1], NaN becomes 0. Alpha is

@@ -33,6 +33,8 @@ int main(int argc, char** argv) {
   parity::tools::add_devices_verb(app, exit_code);
   parity::tools::add_list_verb(app, exit_code);
   parity::tools::add_check_verb(app, exit_code);
+  parity::tools::add_diff_verb(app, exit_code);
+  parity::tools::add_mesh_verb(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
