@@ -39,16 +39,22 @@ std::vector<int> all_roots(const Document& document) {
 
 class Converter {
  public:
-  Converter(const Document& document, const Data& data, const std::string& name)
-      : conversion_{document, data, name,
-                    Budget(name, base_budget + budget_per_byte * data.input_size()), Notes{}},
-        mesh_of_(document.meshes.size(), -1) {}
+  /// @param scene  holds the materials and their textures.
+  Converter(const Document& document, const Data& data, const std::string& name, Scene scene)
+      : conversion_{document,
+                    data,
+                    {},
+                    name,
+                    Budget(name, base_budget + budget_per_byte * data.input_size()),
+                    Notes{}},
+        mesh_of_(document.meshes.size(), -1),
+        scene_(std::move(scene)) {
+    conversion_.materials = scene_.materials;
+  }
 
   Scene convert() {
-    scene_.materials = document().materials;
     scene_.cameras = document().cameras;
     scene_.lights = document().lights;
-    scene_.notes = document().notes;
     place_nodes();
     convert_nodes();
     if (!document().animations.empty())
@@ -209,9 +215,11 @@ class Converter {
 }  // namespace
 
 Scene convert_document(const Document& document, const Data& data, const Origin& origin) {
-  Scene scene = Converter(document, data, origin.name).convert();
+  Scene scene;
+  scene.materials = document.materials;
+  scene.notes = document.notes;
   convert_textures(document, data, origin, scene);
-  return scene;
+  return Converter(document, data, origin.name, std::move(scene)).convert();
 }
 
 }  // namespace parity::gltf

@@ -43,8 +43,7 @@ class Builder {
 
  private:
   const Material* material() const {
-    return from_.material < 0 ? nullptr
-                              : &conversion_.document.materials[std::size_t(from_.material)];
+    return from_.material < 0 ? nullptr : &conversion_.materials[std::size_t(from_.material)];
   }
 
   bool maps_normals() const {

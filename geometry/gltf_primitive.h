@@ -39,6 +39,7 @@ void check_primitive(const Document& document, const Primitive& primitive, const
 struct Conversion {
   const Document& document;
   const Data& data;
+  std::span<const Material> materials;  ///< with the textures that the scene keeps
   std::string name;
   Budget budget;
   Notes notes;
