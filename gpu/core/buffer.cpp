@@ -98,15 +98,23 @@ void allocate(RawBuffer::State& state) {
   take_mapping(state);
 }
 
+/// The validation layer counts a vector of three as one of four, also within a struct. So much too
+/// long it may take an element to be; its buffer is made that much longer, and an access a whole
+/// element past its end is still outside.
+std::size_t slack_bytes(std::size_t element_bytes) {
+  return element_bytes == 16 ? 0 : element_bytes / 12 * 4;
+}
+
 /// A buffer of the elements alone lies inside a larger one. Since only its address is asked for,
 /// the validation layer too knows what is outside.
-void allocate_zoned(RawBuffer::State& state) {
+void allocate_zoned(RawBuffer::State& state, std::size_t element_bytes) {
   ContextState& context = state.context;
   state.before = zone_bytes;
   state.total = align(2 * zone_bytes + state.bytes, zone_bytes);
   state.memory = make_buffer(context, state.total, use_of(context));
   take_mapping(state);
-  const VkBufferCreateInfo info = buffer_info(std::max<std::size_t>(state.bytes, 1));
+  const VkBufferCreateInfo info =
+      buffer_info(std::max<std::size_t>(state.bytes, 1) + slack_bytes(element_bytes));
   state.inner = create<OwnedBuffer>(context.link(), vkCreateBuffer, info, "vkCreateBuffer");
   state.buffer = state.inner.get();
   const Allocation& part = state.memory.allocation.get();
@@ -227,7 +235,7 @@ RawBuffer::RawBuffer(Context& context, std::size_t bytes, std::size_t element_by
   state.bytes = bytes;
   const Guard guard = shared.options.guard;
   if (guard == Guard::none) allocate(state);
-  if (guard == Guard::zones) allocate_zoned(state);
+  if (guard == Guard::zones) allocate_zoned(state, element_bytes);
   if (guard == Guard::fences) import_pages(state);
   state.address = address_of(shared.link(), state.buffer) + state.start;
   if (guard != Guard::none) {

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geometry/raster.h"
+#include "gpu/core/context.h"
+#include "tests/numbers.h"
+#include "tests/setting.h"
+
+/// Triangles that rasterisers get wrong, for the records of the raster chapter.
+namespace parity::raster_test {
+
+/// A list of triangles, how the device that is to draw it snaps, and whether that is known. On a
+/// device that we know nothing of, samples nearer to an edge than it may move vertices do not
+/// count.
+struct RasterProblem {
+  TriangleList list;
+  Snapping snapping = Snapping::mesa;
+  bool snapping_is_known = true;
+  int subpixel_bits = 8;
+};
+inline auto fields_of(const RasterProblem*) {
+  return std::tuple{&RasterProblem::list, &RasterProblem::snapping,
+                    &RasterProblem::snapping_is_known, &RasterProblem::subpixel_bits};
+}
+
+/// What the triangles of a list are like. All but the last two lie inside the viewport.
+enum class Kind {
+  random,      ///< any size, perspective w from 0.5 to 4
+  slivers,     ///< a pixel or less across, as long as the picture
+  ties,        ///< corners on 1/16 pixels: edges through samples, axis-aligned edges
+  mesh,        ///< a jittered grid: every edge shared by two
+  subpixel,    ///< smaller than a pixel
+  off_screen,  ///< beside the viewport
+  behind,      ///< behind the eye
+};
+constexpr int kind_count = 7;
+
+/// Axes of most stages here: kind, samples, side of the picture.
+Axis kind_axis();
+Axis samples_axis();
+Axis side_axis();
+
+/// `count` triangles of one kind on a side x side picture.
+///
+/// @param cull  0 none, 1 back, 2 front
+TriangleList make_triangles(Kind kind, int side, int samples, int count, std::uint64_t seed);
+
+/// From the axes kind, samples and side, as many triangles as make about three layers.
+RasterProblem make_raster_problem(const Setting& setting, const gpu::DeviceInfo& device);
+
+/// How a device snaps, and whether we know.
+RasterProblem for_device(TriangleList list, const gpu::DeviceInfo& device);
+
+/// Samples that two coverages disagree on and that count.
+double wrong_samples(const RasterProblem& problem, const Coverage& got, const Coverage& want);
+
+}  // namespace parity::raster_test
