@@ -68,14 +68,20 @@ int ambiguous_count(const cpu::Rendered& r) {
   return count;
 }
 
-/// Shiny, coloured triangles inside of the view; `jitter` moves each vertex by up to so many pixels
+/// Shiny, textured triangles inside of the view; `jitter` moves each vertex by up to so many pixels
 /// along each axis.
 Scene heap(double jitter) {
   Scene scene = empty_scene();
   std::mt19937 shape(5), noise(9);
   std::uniform_real_distribution<float> anywhere(-0.9f, 0.9f);
   std::uniform_real_distribution<double> wobble(-jitter, jitter);
+  std::uniform_int_distribution<int> code(0, 255);
+  Grid<u8vec4> image{32, 32};
+  for (u8vec4& texel : image) texel = u8vec4(code(shape), code(shape), code(shape), 255);
+  scene.images.push_back(image);
+  scene.textures.push_back({0, {}});
   Primitive p;
+  p.uvs.emplace_back();
   for (std::uint32_t i = 0; i < 90; ++i) {
     const vec3 at{anywhere(shape), anywhere(shape), anywhere(shape) * 0.5f - 1.5f};
     const double pixel = 2.0 / size;
@@ -83,12 +89,15 @@ Scene heap(double jitter) {
                              float(at.y + wobble(noise) * pixel), at.z);
     p.normals.push_back(glm::normalize(vec3(anywhere(shape), anywhere(shape), 1.0f)));
     p.colors.emplace_back(vec3(std::abs(anywhere(shape))), 1.0f);
+    p.uvs[0].emplace_back(anywhere(shape), anywhere(shape));
     p.indices.push_back(i);
   }
   Material m;
   m.double_sided = true;
   m.roughness = 0.4f;
   m.metallic = 0.5f;
+  m.base_color_texture.texture = 0;
+  m.metallic_roughness_texture.texture = 0;
   add(scene, p, m);
   return scene;
 }

@@ -342,6 +342,101 @@ TEST(CpuRenderer, TakesTheMipLevelOfThePixelsFootprint) {
   for (const vec4& c : p.color) EXPECT_NEAR(c.x, 128 / 255.0, stored);
 }
 
+TEST(CpuRenderer, ReadsRoughnessFromGreenAndMetallicFromBlue) {
+  Stage stage;
+  stage.add_texture(Grid<u8vec4>(1, 1, u8vec4(7, 128, 51, 255)), {});
+  Material m;
+  m.base_color = {0.5f, 0.25f, 1, 1};
+  m.metallic = 0.5f;
+  m.metallic_roughness_texture.texture = 0;
+  stage.add(quad(stage.add_material(m)));
+  Light light;
+  light.kind = LightKind::directional;
+  stage.add_light(light);
+  const vec4 got = stage.render().color(4, 4);
+  // Straight on all cosines are 1: F = F0, D = 1 / (pi alpha^2), V = 1 / 4.
+  const double metallic = 0.5 * 51 / 255.0, alpha = std::pow(128 / 255.0, 2);
+  for (int c = 0; c < 3; ++c) {
+    const double base = double(m.base_color[c]), f0 = 0.04 * (1 - metallic) + base * metallic;
+    const double want = (1 - f0) * base * (1 - metallic) / pi + f0 / (4 * pi * alpha * alpha);
+    EXPECT_NEAR(got[c], want, stored) << c;
+  }
+}
+
+TEST(CpuRenderer, MultipliesEmissionByItsTexture) {
+  Stage stage;
+  stage.add_texture(Grid<u8vec4>(1, 1, u8vec4(255, 128, 0, 255)), {});
+  Material m;
+  m.base_color = {0, 0, 0, 1};
+  m.emission = {2, 2, 2};
+  m.emission_texture.texture = 0;
+  stage.add(quad(stage.add_material(m)));
+  // Code 128 is 0.2158605 (IEC 61966-2-1).
+  expect_color(stage.render().color(4, 4), {2, 2 * 0.21586050011389926, 0, 1}, stored);
+}
+
+TEST(CpuRenderer, TransformsTheTextureCoordinatesOfTheSetThatAUseNames) {
+  Stage stage;
+  Grid<u8vec4> image{2, 2, u8vec4(0, 0, 0, 255)};
+  image(1, 0) = u8vec4(255);
+  Sampler nearest;
+  nearest.mag = Filter::nearest;
+  stage.add_texture(image, nearest);
+  Material m = unlit(vec4(1));
+  m.base_color_texture.texture = 0;
+  m.base_color_texture.uv_set = 1;
+  Primitive p = quad(stage.add_material(m));
+  p.uvs.push_back(p.uvs[0]);
+  p.uvs[0].assign(4, vec2(0.0f));
+  stage.add(p);
+  const auto white = [&](int x, int y) { return stage.render().color(x, y).x == 1.0f; };
+  EXPECT_TRUE(white(6, 1) && !white(1, 1) && !white(1, 6) && !white(6, 6));
+  // (u, v) -> (v, u): the white texel moves to the lower left.
+  stage.scene.materials[0].base_color_texture.texture_from_uv =
+      mat3(vec3(0, 1, 0), vec3(1, 0, 0), vec3(0, 0, 1));
+  EXPECT_TRUE(white(1, 6) && !white(1, 1) && !white(6, 1) && !white(6, 6));
+  // u + 1/2: to the left.
+  stage.scene.materials[0].base_color_texture.texture_from_uv =
+      mat3(vec3(1, 0, 0), vec3(0, 1, 0), vec3(0.5f, 0, 1));
+  EXPECT_TRUE(white(1, 1) && !white(6, 1) && !white(1, 6) && !white(6, 6));
+}
+
+TEST(CpuRenderer, MirroringKeepsTheUpOfANormalMap) {
+  const auto lit = [](const dmat4& place) {
+    Stage stage;
+    stage.add_texture(Grid<u8vec4>(1, 1, u8vec4(128, 255, 255, 255)), {});
+    Material m;
+    m.metallic = 0;
+    m.normal_texture.texture = 0;
+    stage.add(quad(stage.add_material(m)), place);
+    Light light;
+    light.kind = LightKind::directional;
+    stage.add_light(light, glm::rotate(dmat4(1.0), -1.2, dvec3(1, 0, 0)));
+    return stage.render().color(4, 4).x;
+  };
+  // The light comes from above, so a normal turned down would lie in the dark.
+  EXPECT_GT(lit(dmat4(1.0)), 0.2f);
+  // The map's x is 1/255, not 0: mirroring turns the normal by twice that.
+  EXPECT_NEAR(lit(glm::scale(dmat4(1.0), dvec3(-1, 1, 1))), lit(dmat4(1.0)), 0.01);
+}
+
+TEST(CpuRenderer, TakesTheLongerSideOfAnUprightFootprint) {
+  // Rows alternate in pairs: 4 texels a pixel down, 1/2 across; level 2 averages 4 rows to grey.
+  Stage stage;
+  Grid<u8vec4> rows{4, 32};
+  for (int y = 0; y < 32; ++y)
+    for (int x = 0; x < 4; ++x) rows(x, y) = u8vec4(u8vec4::value_type(y / 2 % 2 * 255));
+  stage.add_texture(rows, {});
+  Material m;
+  m.metallic = 0;
+  m.occlusion_texture.texture = 0;
+  stage.add(quad(stage.add_material(m)));
+  Frame frame = stage.frame();
+  frame.ambient = vec3(1.0f);
+  const Picture p = cpu::render(stage.scene, frame).picture;
+  for (const vec4& c : p.color) EXPECT_NEAR(c.x, 128 / 255.0, stored);
+}
+
 TEST(CpuRenderer, EveryDepthModeStoresItsFormula) {
   Scene scene;
   Camera camera;
