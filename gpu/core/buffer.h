@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <stdexcept>
@@ -39,6 +40,13 @@ class RawBuffer {
   std::unique_ptr<State> state_;
 };
 
+namespace detail {
+/// The product, or the largest number if that is too small for it.
+constexpr std::size_t saturating_product(std::size_t a, std::size_t b) {
+  return b != 0 && a > SIZE_MAX / b ? SIZE_MAX : a * b;
+}
+}  // namespace detail
+
 /// `count` elements on the device; move-only. Usable as storage (through its address), index,
 /// indirect, and source and target of copies. A buffer of 0 elements is fine: its address must not
 /// be read from.
@@ -51,7 +59,7 @@ class Buffer {
  public:
   Buffer() = default;
   Buffer(Context& context, std::size_t count)
-      : raw_(context, count * sizeof(T), sizeof(T)), count_(count) {}
+      : raw_(context, detail::saturating_product(count, sizeof(T)), sizeof(T)), count_(count) {}
   Buffer(Context& context, std::span<const T> values) : Buffer(context, values.size()) {
     write(values);
   }

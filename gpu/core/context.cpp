@@ -34,6 +34,11 @@ void choose(ContextState& state) {
   state.physical = physicals[chosen];
 }
 
+/// Leaves a device that was given up on as it is.
+void abandon(std::unique_ptr<ContextState>& state) {
+  if (state->link().abandoned) static_cast<void>(state.release());
+}
+
 void find_clock(ContextState& state) {
   std::uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(state.physical, &count, nullptr);
@@ -96,12 +101,15 @@ void ContextState::count_bytes(std::uint64_t bytes) {
 
 Context::Context(const ContextOptions& options)
     : state_(std::make_unique<ContextState>(options, make_log(options))) {
-  state_->info.cuts_loops_short = cuts_loops_short(*this);
+  try {
+    state_->info.cuts_loops_short = cuts_loops_short(*this);
+  } catch (...) {
+    abandon(state_);
+    throw;
+  }
 }
 
-Context::~Context() {
-  if (state_->link().abandoned) static_cast<void>(state_.release());
-}
+Context::~Context() { abandon(state_); }
 
 const DeviceInfo& Context::info() const { return state_->info; }
 const ContextOptions& Context::options() const { return state_->options; }

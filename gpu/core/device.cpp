@@ -21,9 +21,12 @@ std::string version_text(std::uint32_t version) {
 }
 
 void load_loader() {
-  if (volkInitialize() != VK_SUCCESS)
-    throw Error(ErrorKind::no_driver,
-                "no Vulkan loader (Debian: install libvulkan1 and mesa-vulkan-drivers)");
+  static std::once_flag once;
+  std::call_once(once, [] {
+    if (volkInitialize() != VK_SUCCESS)
+      throw Error(ErrorKind::no_driver,
+                  "no Vulkan loader (Debian: install libvulkan1 and mesa-vulkan-drivers)");
+  });
   if (volkGetInstanceVersion() < api_version)
     throw Error(ErrorKind::no_driver, "the Vulkan loader is version " +
                                           version_text(volkGetInstanceVersion()) +

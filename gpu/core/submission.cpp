@@ -92,14 +92,24 @@ void Submission::submit_and_wait(VkCommandBuffer commands) {
   const VkResult submitted = vkQueueSubmit2(queue_, 1, &submit, fence);
   if (submitted == VK_ERROR_DEVICE_LOST) broken_ = "vkQueueSubmit2 failed";
   check(submitted, "vkQueueSubmit2");
-  const VkResult waited =
-      vkWaitForFences(link_.device, 1, &fence, VK_TRUE, nanoseconds(timeout_seconds_));
+  wait(fence);
+}
+
+void Submission::wait(VkFence fence) {
+  const auto wait_once = [&] {
+    return vkWaitForFences(link_.device, 1, &fence, VK_TRUE, nanoseconds(timeout_seconds_));
+  };
+  const VkResult waited = wait_once();
+  if (waited == VK_SUCCESS) return;
+  // Whatever went wrong with waiting, what is in flight must end before anything is destroyed.
+  const bool ended =
+      waited != VK_TIMEOUT && waited != VK_ERROR_DEVICE_LOST && wait_once() == VK_SUCCESS;
   if (waited == VK_TIMEOUT) {
     link_.abandoned = true;
     broken_ = "a submission did not end within " + seconds_text(timeout_seconds_) + " s";
     throw Error(ErrorKind::timed_out, broken_);
   }
-  if (waited < 0) broken_ = "vkWaitForFences failed: " + result_name(waited);
+  if (!ended) broken_ = "vkWaitForFences failed: " + result_name(waited);
   check(waited, "vkWaitForFences");
 }
 

@@ -238,6 +238,7 @@ class Submission {
   VkDescriptorSet allocate_set(VkDescriptorSetLayout layout);
 
  private:
+  void wait(VkFence fence);
   void make_query_pool(VkCommandBuffer commands);
 
   DeviceLink& link_;
