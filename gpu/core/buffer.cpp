@@ -102,7 +102,7 @@ void allocate(RawBuffer::State& state) {
 /// long it may take an element to be; its buffer is made that much longer, and an access a whole
 /// element past its end is still outside.
 std::size_t slack_bytes(std::size_t element_bytes) {
-  return element_bytes == 16 ? 0 : element_bytes / 12 * 4;
+  return element_bytes == 16 ? 0 : std::min(element_bytes / 12 * 4, zone_bytes / 2);
 }
 
 /// A buffer of the elements alone lies inside a larger one. Since only its address is asked for,
