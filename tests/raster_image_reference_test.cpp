@@ -15,24 +15,10 @@
 #include "cpu_reference/raster/viewport.h"
 #include "cpu_reference/transform/perspective.h"
 #include "tests/raster/errata_depth.h"
+#include "tests/raster/triangle_lists.h"
 
 namespace parity {
 namespace {
-
-TriangleList empty_list(int width, int height) {
-  return {.width = width, .height = height, .samples = 1, .clip_positions = {}, .triangles = {}};
-}
-
-void add_triangle(TriangleList& list, vec4 a, vec4 b, vec4 c) {
-  const auto first = std::uint32_t(list.clip_positions.size());
-  list.clip_positions.insert(list.clip_positions.end(), {a, b, c});
-  list.triangles.emplace_back(first, first + 1, first + 2);
-}
-
-vec4 clip_at(const TriangleList& list, dvec2 window, double depth) {
-  return {float(2.0 * window.x / list.width - 1.0), float(2.0 * window.y / list.height - 1.0),
-          float(depth), 1.0f};
-}
 
 /// Triangles in front of a camera with a right-angled field of view, near 1 m, far 100 m.
 struct View {
@@ -41,7 +27,7 @@ struct View {
 };
 
 View random_view(int size, int count, DepthMode mode, unsigned seed) {
-  View view{{}, empty_list(size, size)};
+  View view{{}, empty_list(size, size, 1)};
   const dmat4 clip_from_view =
       cpu::perspective(std::vector{ViewVolume{-1.0f, 1.0f, -1.0f, 1.0f, 1.0f, 100.0f}}, mode)[0];
   std::mt19937 random{seed};
@@ -111,7 +97,7 @@ TEST(RasterReference, PerspectiveInterpolationRecoversAPlaneAttribute) {
 }
 
 TEST(RasterReference, AffineInterpolationIsAffineInTheWindow) {
-  TriangleList list = empty_list(64, 64);
+  TriangleList list = empty_list(64, 64, 1);
   add_triangle(list, {-1, -1, 0.5f, 1}, {4, -4, 2, 4}, {-2, 2, 1, 2});  // covers half the window
   const Varyings varyings{{vec4(0, 0, 7, 1), vec4(64, 0, 7, 1), vec4(0, 64, 7, 1)}, false};
   const Grid<dvec4> values = cpu::interpolate(list, varyings, Snapping::mesa);
@@ -273,7 +259,7 @@ TEST(RasterReference, TheDepthBufferForgetsTheOrderOfDrawing) {
 }
 
 TEST(RasterReference, OfEqualDepthsTheFirstDrawnStays) {
-  TriangleList list = empty_list(4, 4);
+  TriangleList list = empty_list(4, 4, 1);
   const vec4 a{-1, -1, 0.5f, 1}, b{3, -1, 0.5f, 1}, c{-1, 3, 0.5f, 1};
   add_triangle(list, a, b, c);
   add_triangle(list, a, b, c);
@@ -342,7 +328,7 @@ TEST(RasterReference, PainterOrderIsStableFromFarToNear) {
 }
 
 TEST(RasterReference, PainterEqualsTheDepthBufferWhereTrianglesCanBeSorted) {
-  TriangleList list = empty_list(80, 60);
+  TriangleList list = empty_list(80, 60, 1);
   std::mt19937 random{31};
   std::uniform_real_distribution<double> unit;
   for (int i = 0; i < 50; ++i) {
@@ -361,7 +347,7 @@ TEST(RasterReference, PainterEqualsTheDepthBufferWhereTrianglesCanBeSorted) {
 //      /\        three sticks, each over the next at one end and under the one before at the other
 //     /  \       .
 TEST(RasterReference, PainterFailsOnACycle) {
-  TriangleList list = empty_list(80, 80);
+  TriangleList list = empty_list(80, 80, 1);
   const auto point = [](double turn, double radius) {
     const double angle = 2.0 * std::numbers::pi * turn;
     return dvec2(40.0 + radius * std::cos(angle), 40.0 + radius * std::sin(angle));
