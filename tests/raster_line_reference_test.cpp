@@ -109,11 +109,12 @@ int covered(const Grid<std::uint8_t>& grid) {
   return count;
 }
 
+// Its borders run through pixel centres; those left and on top belong to it.
 TEST(RasterReference, AWideLineAlongAnAxisIsARectangle) {
-  const Grid<std::uint8_t> line = cpu::wide_line({2.0f, 10.0f}, {12.0f, 10.0f}, 4.0f, 20, 20);
+  const Grid<std::uint8_t> line = cpu::wide_line({2.5f, 10.0f}, {12.5f, 10.0f}, 3.0f, 20, 20);
   for (int y = 0; y < 20; ++y)
     for (int x = 0; x < 20; ++x)
-      EXPECT_EQ(line(x, y), x >= 2 && x < 12 && y >= 8 && y < 12) << x << " " << y;
+      EXPECT_EQ(line(x, y), x >= 2 && x < 12 && y >= 8 && y < 11) << x << " " << y;
 }
 
 TEST(RasterReference, AWideLineIsThePolygonAroundIt) {
