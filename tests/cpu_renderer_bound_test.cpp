@@ -51,7 +51,8 @@ Material unlit(vec4 color) {
   return m;
 }
 
-cpu::Rendered render(const Scene& scene, bool bounds = true, int samples = 1) {
+cpu::Rendered render(const Scene& scene, bool bounds = true, int samples = 1,
+                     bool half_color = true) {
   FrameOptions options;
   options.width = size;
   options.height = size;
@@ -59,6 +60,7 @@ cpu::Rendered render(const Scene& scene, bool bounds = true, int samples = 1) {
   cpu::RenderOptions render_options;
   render_options.elements = true;
   render_options.bounds = bounds;
+  render_options.device.half_color = half_color;
   return cpu::render(scene, make_frame(scene, options), render_options);
 }
 
@@ -70,7 +72,7 @@ int ambiguous_count(const cpu::Rendered& r) {
 
 /// Shiny, textured triangles inside of the view; `jitter` moves each vertex by up to so many pixels
 /// along each axis.
-Scene heap(double jitter) {
+Scene heap(double jitter, bool textured = true) {
   Scene scene = empty_scene();
   std::mt19937 shape(5), noise(9);
   std::uniform_real_distribution<float> anywhere(-0.9f, 0.9f);
@@ -96,8 +98,7 @@ Scene heap(double jitter) {
   m.double_sided = true;
   m.roughness = 0.4f;
   m.metallic = 0.5f;
-  m.base_color_texture.texture = 0;
-  m.metallic_roughness_texture.texture = 0;
+  if (textured) m.base_color_texture.texture = m.metallic_roughness_texture.texture = 0;
   add(scene, p, m);
   return scene;
 }
@@ -129,8 +130,16 @@ TEST(CpuRendererBound, CoversVerticesThatMoveByHalfAStepOfTheGrid) {
   EXPECT_EQ(j.outside, 0);
 }
 
+TEST(CpuRendererBound, CoversMovedVerticesWithoutTheRoomThatTexturesLeave) {
+  const Judgement j =
+      judge(render(heap(0, false), true, 1, false), render(heap(0x1p-9, false), false).picture);
+  EXPECT_GT(j.compared, size * size / 2);
+  EXPECT_EQ(j.outside, 0);
+}
+
 TEST(CpuRendererBound, RejectsVerticesThatMoveByManySteps) {
-  const Judgement j = judge(render(heap(0)), render(heap(0.1), false).picture);
+  const Judgement j =
+      judge(render(heap(0, false), true, 1, false), render(heap(0x1p-6, false), false).picture);
   EXPECT_GT(j.outside, j.compared / 4);
 }
 

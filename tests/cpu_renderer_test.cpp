@@ -489,7 +489,7 @@ TEST(CpuRenderer, DrawsPointsAndLinesOnePixelWide) {
   Primitive points;
   points.topology = Topology::points;
   points.material = stage.add_material(unlit({0.5f, 1, 1, 1}));
-  points.positions = {{-0.875f, 0.875f, -1}};
+  points.positions = {{-0.8125f, 0.8125f, -1}};  // (0.75, 0.75) px: reaches one centre
   points.colors = {vec4(1, 0.5f, 0.25f, 1)};
   points.indices = {0};
   stage.add(points);
@@ -510,6 +510,38 @@ TEST(CpuRenderer, DrawsPointsAndLinesOnePixelWide) {
     EXPECT_NEAR(p.color(x, 3).x, 0.5 * (x + 0.5) / 8, stored);
   }
   EXPECT_EQ(p.triangle_count, 0u);
+}
+
+TEST(CpuRenderer, FillsEveryRowThatAQuadReaches) {
+  constexpr int size = 40;
+  for (int rows = 1; rows <= size; ++rows) {
+    Stage stage;
+    Primitive p = quad(stage.add_material(unlit(vec4(1))));
+    p.positions[2].y = p.positions[3].y = 1.0f - 2.0f * float(rows) / size;
+    stage.add(p);
+    int drawn = 0;
+    for (const std::uint32_t e : stage.render(size).element) drawn += e != 0;
+    EXPECT_EQ(drawn, rows * size);
+  }
+}
+
+TEST(CpuRenderer, TakesDerivativesInsideOfThePixelsQuad) {
+  const std::array<vec4, 3> clip{vec4(-1, 1, 0, 1), vec4(2, 2, 0, 2), vec4(-3, -3, 0, 3)};
+  Primitive p;
+  p.indices = {0, 1, 2};
+  cpu::PlacedDraw draw;
+  draw.primitive = &p;
+  draw.clip.assign(clip.begin(), clip.end());
+  draw.element_count = 1;
+  const cpu::Planes planes = cpu::element_planes(draw, 0, 8, 8);
+  for (int y = 2; y < 4; ++y)
+    for (int x = 2; x < 4; ++x) {
+      const cpu::QuadBarycentrics b = cpu::quad_barycentrics(planes, x, y);
+      EXPECT_EQ(b.beside, cpu::barycentric(planes, x == 2 ? 3.5 : 2.5, y + 0.5));
+      EXPECT_EQ(b.below, cpu::barycentric(planes, x + 0.5, y == 2 ? 3.5 : 2.5));
+      EXPECT_EQ(b.right, x == 2 ? 1 : -1);
+      EXPECT_EQ(b.down, y == 2 ? 1 : -1);
+    }
 }
 
 TEST(CpuRenderer, InterpolatesInPerspective) {
