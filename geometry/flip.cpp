@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -59,25 +60,36 @@ using Filter = std::vector<double>;
 
 int radius_of(const Filter& filter) { return int(filter.size()) / 2; }
 
+/// Adds `weight` times `from` to `to`, element by element.
+void add_scaled(std::span<double> to, const double* from, double weight) {
+  for (std::size_t i = 0; i < to.size(); ++i) to[i] += weight * from[i];
+}
+
+/// A row that goes on with its border for `radius` pixels on either side.
+std::vector<double> padded_row(const Grid<double>& image, int y, int radius) {
+  std::vector<double> row;
+  row.reserve(std::size_t(image.width() + 2 * radius));
+  for (int x = -radius; x < image.width() + radius; ++x)
+    row.push_back(image(std::clamp(x, 0, image.width() - 1), y));
+  return row;
+}
+
 /// Filters along x, then along y; beyond the border the picture goes on with its border.
 Grid<double> filtered(const Grid<double>& image, const Filter& along_x, const Filter& along_y) {
   const int width = image.width(), height = image.height();
   Grid<double> rows{width, height}, result{width, height};
 #pragma omp parallel for
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const int radius = radius_of(along_x);
-      for (int i = -radius; i <= radius; ++i)
-        rows(x, y) += along_x[std::size_t(i + radius)] * image(std::clamp(x + i, 0, width - 1), y);
-    }
+  for (int y = 0; y < height; ++y) {
+    const std::vector<double> row = padded_row(image, y, radius_of(along_x));
+    for (std::size_t i = 0; i < along_x.size(); ++i)
+      add_scaled({&rows(0, y), std::size_t(width)}, row.data() + i, along_x[i]);
+  }
 #pragma omp parallel for
   for (int y = 0; y < height; ++y) {
     const int radius = radius_of(along_y);
-    for (int i = -radius; i <= radius; ++i) {
-      const double weight = along_y[std::size_t(i + radius)];
-      const int row = std::clamp(y + i, 0, height - 1);
-      for (int x = 0; x < width; ++x) result(x, y) += weight * rows(x, row);
-    }
+    for (int i = -radius; i <= radius; ++i)
+      add_scaled({&result(0, y), std::size_t(width)}, &rows(0, std::clamp(y + i, 0, height - 1)),
+                 along_y[std::size_t(i + radius)]);
   }
   return result;
 }

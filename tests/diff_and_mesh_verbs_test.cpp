@@ -1,0 +1,120 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "geometry/atomic_file.h"
+#include "geometry/image_io.h"
+
+namespace parity {
+namespace {
+
+struct Answer {
+  int exit_code = -1;
+  std::string output;
+};
+
+/// Runs the program in a folder of its own, which goes with its files at the end.
+class Verbs : public testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::create_directories(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+
+  /// @param arguments  as a shell takes them; `redirection` says what becomes of the streams.
+  Answer run(const std::string& arguments, const std::string& redirection) const {
+    const std::string command =
+        "cd '" + folder_.string() + "' && '" PARITY_PROGRAM "' " + arguments + " " + redirection;
+    Answer answer;
+    FILE* pipe = ::popen(command.c_str(), "r");
+    std::array<char, 4096> buffer;
+    while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe))
+      answer.output.append(buffer.data(), count);
+    answer.exit_code = WEXITSTATUS(::pclose(pipe));
+    return answer;
+  }
+  Answer run_for_output(const std::string& arguments) const { return run(arguments, "2>&-"); }
+  Answer run_for_errors(const std::string& arguments) const { return run(arguments, "2>&1 >&-"); }
+
+  void expect_one_line(const std::string& arguments, int exit_code) const {
+    const Answer answer = run_for_errors(arguments);
+    EXPECT_EQ(answer.exit_code, exit_code) << arguments;
+    EXPECT_TRUE(answer.output.starts_with("parity: ")) << answer.output;
+    EXPECT_EQ(std::count(answer.output.begin(), answer.output.end(), '\n'), 1) << answer.output;
+  }
+
+ private:
+  std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("parity_verbs_" + std::to_string(::getpid()));
+};
+
+TEST_F(Verbs, DiffMeasuresAndJudges) {
+  Grid<vec4> a{12, 9, vec4(0.5f, 0.5f, 0.5f, 1.0f)}, b = a;
+  b(7, 3).y += 0.25f;
+  save_image(file("a.pfm"), a, {});
+  save_image(file("b.pfm"), b, {});
+  EXPECT_EQ(run_for_output("diff a.pfm a.pfm --max-error 0 --metric max").exit_code, 0);
+  EXPECT_EQ(run_for_output("diff a.pfm b.pfm --max-error 0.25 --metric max").exit_code, 0);
+  EXPECT_EQ(run_for_output("diff a.pfm b.pfm --max-error 0.2499 --metric max").exit_code, 1);
+  EXPECT_EQ(run_for_output("diff a.pfm b.pfm --max-error 60 --metric psnr").exit_code, 1);
+  const Answer answer = run_for_output("diff a.pfm b.pfm --json -o error.png");
+  EXPECT_EQ(answer.exit_code, 0);
+  const nlohmann::json json = nlohmann::json::parse(answer.output);
+  EXPECT_EQ(json.at("max"), 0.25);
+  EXPECT_EQ(json.at("max_at"), nlohmann::json::array({7, 3}));
+  EXPECT_EQ(json.at("mse"), 0.0625 / (3 * 12 * 9));
+  EXPECT_EQ(json.at("values"), "linear");
+  EXPECT_EQ(load_image(file("error.png")).width(), 12);
+}
+
+TEST_F(Verbs, DiffRefusesWithTheCodeThatBelongs) {
+  save_image(file("a.png"), Grid<vec4>{4, 4}, {});
+  save_image(file("b.png"), Grid<vec4>{5, 4}, {});
+  write_file_atomically(file("text.png"), "no picture");
+  expect_one_line("diff a.png b.png", 2);
+  expect_one_line("diff a.png missing.png", 2);
+  expect_one_line("diff a.png text.png", 2);
+  expect_one_line("diff a.png a.png -o a.png", 2);
+  expect_one_line("diff a.png a.png -o error.tga", 2);
+  expect_one_line("diff a.png a.png -o none/error.png", 5);
+  EXPECT_EQ(run_for_errors("diff a.png").exit_code, 2);
+  EXPECT_EQ(run_for_errors("diff a.png a.png --metric taste").exit_code, 2);
+  EXPECT_EQ(load_image(file("a.png")).width(), 4);
+}
+
+TEST_F(Verbs, MeshInfoSaysWhatAMeshIs) {
+  write_file_atomically(file("square.obj"), "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3 4\n");
+  const Answer answer = run_for_output("mesh info --json square.obj");
+  EXPECT_EQ(answer.exit_code, 0);
+  const nlohmann::json json = nlohmann::json::parse(answer.output);
+  EXPECT_EQ(json.at("vertices"), 4);
+  EXPECT_EQ(json.at("quads"), 1);
+  EXPECT_EQ(json.at("genus"), 0);
+  EXPECT_EQ(json.at("boundary_loops"), 1);
+  EXPECT_EQ(json.at("area_m2"), 4.0);
+  EXPECT_EQ(json.at("max_m"), nlohmann::json::array({2.0, 2.0, 0.0}));
+  EXPECT_TRUE(json.at("volume_m3").is_null());
+}
+
+TEST_F(Verbs, MeshInfoWarnsAndRefuses) {
+  const std::string fan =
+      "v 0 0 0\nv 0 0 1\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nv 3 1 0\n"
+      "f 1 2 3\nf 1 2 4\nf 1 2 5\n";
+  write_file_atomically(file("fan.obj"), fan);
+  write_file_atomically(file("book.obj"), fan + "f 1 2 6\nf 1 2 7\n");
+  expect_one_line("mesh info fan.obj", 0);
+  expect_one_line("mesh info book.obj", 2);
+  expect_one_line("mesh info missing.obj", 2);
+  EXPECT_EQ(run_for_output("mesh info book.obj").output, "");
+  EXPECT_EQ(run_for_errors("mesh").exit_code, 2);
+}
+
+}  // namespace
+}  // namespace parity
