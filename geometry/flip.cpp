@@ -53,7 +53,9 @@ dvec3 hunt_lab_from_rgb(dvec3 rgb) {
           0.01 * lightness * 200.0 * (f.y - f.z)};
 }
 
-double hyab(dvec3 a, dvec3 b) { return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z); }
+double hyab(dvec3 a, dvec3 b) {
+  return std::abs(a.x - b.x) + glm::length(dvec2(a.y - b.y, a.z - b.z));
+}
 
 /// A filter along one axis, from -radius to radius.
 using Filter = std::vector<double>;
@@ -74,17 +76,20 @@ std::vector<double> padded_row(const Grid<double>& image, int y, int radius) {
   return row;
 }
 
+/// Smaller pictures are done before the threads have met.
+constexpr std::size_t worth_threads = 1u << 15;
+
 /// Filters along x, then along y; beyond the border the picture goes on with its border.
 Grid<double> filtered(const Grid<double>& image, const Filter& along_x, const Filter& along_y) {
   const int width = image.width(), height = image.height();
   Grid<double> rows{width, height}, result{width, height};
-#pragma omp parallel for
+#pragma omp parallel for if (image.size() > worth_threads)
   for (int y = 0; y < height; ++y) {
     const std::vector<double> row = padded_row(image, y, radius_of(along_x));
     for (std::size_t i = 0; i < along_x.size(); ++i)
       add_scaled({&rows(0, y), std::size_t(width)}, row.data() + i, along_x[i]);
   }
-#pragma omp parallel for
+#pragma omp parallel for if (image.size() > worth_threads)
   for (int y = 0; y < height; ++y) {
     const int radius = radius_of(along_y);
     for (int i = -radius; i <= radius; ++i)
@@ -155,7 +160,7 @@ Grid<dvec3> perceived(const Planes& planes, double pixels_per_degree) {
   const Grid<double> cx = seen(planes.channel[1], red_green, pixels_per_degree);
   const Grid<double> cz = seen(planes.channel[2], blue_yellow, pixels_per_degree);
   Grid<dvec3> lab{y.width(), y.height()};
-#pragma omp parallel for
+#pragma omp parallel for if (lab.size() > worth_threads)
   for (std::size_t i = 0; i < lab.size(); ++i) {
     const dvec3 rgb = rgb_from_ycxcz({y.values()[i], cx.values()[i], cz.values()[i]});
     lab.values()[i] = hunt_lab_from_rgb(glm::clamp(rgb, 0.0, 1.0));
@@ -191,7 +196,7 @@ struct Features {
 Grid<double> length_of(const Grid<double>& x, const Grid<double>& y) {
   Grid<double> length{x.width(), x.height()};
   for (std::size_t i = 0; i < length.size(); ++i)
-    length.values()[i] = std::hypot(x.values()[i], y.values()[i]);
+    length.values()[i] = glm::length(dvec2(x.values()[i], y.values()[i]));
   return length;
 }
 
@@ -240,7 +245,7 @@ Grid<float> flip_of_clamped(const Grid<dvec3>& reference, const Grid<dvec3>& tes
   const Features features_a = features_of(a.channel[0], pixels_per_degree);
   const Features features_b = features_of(b.channel[0], pixels_per_degree);
   Grid<float> errors{reference.width(), reference.height()};
-#pragma omp parallel for
+#pragma omp parallel for if (errors.size() > worth_threads)
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const double edge = std::abs(features_a.edge.values()[i] - features_b.edge.values()[i]);
     const double point = std::abs(features_a.point.values()[i] - features_b.point.values()[i]);
