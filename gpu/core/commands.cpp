@@ -139,6 +139,18 @@ VkRenderingAttachmentInfo attachment(const Image& image, bool clear) {
   return info;
 }
 
+void set_resolve(VkRenderingAttachmentInfo& info, const Image& image, const Image& resolve) {
+  const ImageOptions& from = image.options();
+  const ImageOptions& to = resolve.options();
+  require(from.samples > 1 && to.samples == 1 && from.format == to.format &&
+              from.width == to.width && from.height == to.height,
+          "Commands::render: the resolve target must have the size and format, and one sample");
+  const bool averages = from.format != Format::r32_uint && !is_depth(from.format);
+  info.resolveMode = averages ? VK_RESOLVE_MODE_AVERAGE_BIT : VK_RESOLVE_MODE_SAMPLE_ZERO_BIT;
+  info.resolveImageView = resolve.state()->levels[0].get();
+  info.resolveImageLayout = VK_IMAGE_LAYOUT_GENERAL;
+}
+
 VkRenderingAttachmentInfo color_attachment(const ColorTarget& target) {
   require((target.image->state()->usage & VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT) != 0,
           "Commands::render: a colour target's format cannot be drawn to");
@@ -146,15 +158,7 @@ VkRenderingAttachmentInfo color_attachment(const ColorTarget& target) {
   if (target.clear)
     std::memcpy(&info.clearValue.color, target.clear->data(), sizeof(*target.clear));
   if (target.resolve == nullptr) return info;
-  const ImageOptions& from = target.image->options();
-  const ImageOptions& to = target.resolve->options();
-  require(from.samples > 1 && to.samples == 1 && from.format == to.format &&
-              from.width == to.width && from.height == to.height,
-          "Commands::render: the resolve target must have the size and format, and one sample");
-  info.resolveMode = from.format == Format::r32_uint ? VK_RESOLVE_MODE_SAMPLE_ZERO_BIT
-                                                     : VK_RESOLVE_MODE_AVERAGE_BIT;
-  info.resolveImageView = target.resolve->state()->levels[0].get();
-  info.resolveImageLayout = VK_IMAGE_LAYOUT_GENERAL;
+  set_resolve(info, *target.image, *target.resolve);
   return info;
 }
 
@@ -258,6 +262,8 @@ void Commands::render(const RenderTargets& targets,
             "Commands::render: the depth target is no depth image");
     depth = attachment(*targets.depth->image, targets.depth->clear.has_value());
     depth.clearValue.depthStencil = {targets.depth->clear.value_or(0), 0};
+    if (targets.depth->resolve != nullptr)
+      set_resolve(depth, *targets.depth->image, *targets.depth->resolve);
     pass.depth = targets.depth->image->options().format;
   }
   require(size != nullptr, "Commands::render: no target");

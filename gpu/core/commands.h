@@ -26,12 +26,14 @@ struct Threads {
 struct ColorTarget {
   const Image* image = nullptr;
   std::optional<std::array<float, 4>> clear;
-  const Image* resolve = nullptr;  ///< average of the samples goes here at the end
+  const Image* resolve =
+      nullptr;  ///< average of the samples (integers: sample 0) goes here at the end
 };
 
 struct DepthTarget {
   const Image* image = nullptr;
   std::optional<float> clear;
+  const Image* resolve = nullptr;  ///< sample 0 goes here at the end
 };
 
 struct RenderTargets {

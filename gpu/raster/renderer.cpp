@@ -1,0 +1,46 @@
+#include "gpu/raster/renderer.h"
+
+#include <algorithm>
+
+#include "gpu/raster/pipeline_renderer.h"
+#include "gpu/raster/scene_buffers.h"
+#include "gpu/raster/scene_frame.h"
+
+namespace parity::gpu {
+
+struct Renderer::State {
+  State(Context& device, const Scene& scene, RenderOptions render_options)
+      : context(device),
+        bytes_before(device.memory_bytes()),
+        buffers(device, scene),
+        blended(scene),
+        pipelines(device, buffers, render_options) {}
+
+  Context& context;
+  std::uint64_t bytes_before;
+  SceneBuffers buffers;
+  BlendedPrimitives blended;
+  PipelineRenderer pipelines;
+};
+
+Renderer::Renderer(Context& context, const Scene& scene, RenderOptions options)
+    : state_(std::make_unique<State>(context, scene, options)) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+Picture Renderer::render(const Frame& frame) {
+  State& s = *state_;
+  const SceneFrame data(s.context, s.buffers, s.blended, frame);
+  Picture picture = s.pipelines.render(frame, data);
+  picture.triangle_count = data.triangle_count();
+  const std::uint64_t bytes = s.context.memory_bytes();
+  picture.memory_bytes = bytes > s.bytes_before ? bytes - s.bytes_before : 0;
+  return picture;
+}
+
+Picture render(Context& context, const Scene& scene, const Frame& frame, RenderOptions options) {
+  return Renderer(context, scene, options).render(frame);
+}
+
+}  // namespace parity::gpu

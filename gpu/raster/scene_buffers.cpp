@@ -1,0 +1,229 @@
+#include "gpu/raster/scene_buffers.h"
+
+#include <algorithm>
+#include <array>
+
+#include "geometry/color.h"
+#include "geometry/mip_pyramid.h"
+
+namespace parity::gpu {
+namespace {
+
+/// Buffers of pools: few, yet far below what any device allows (128 MiB).
+std::size_t pool_bytes(const Context& context) {
+  return std::size_t(
+      std::min<std::uint64_t>(context.info().max_buffer_bytes, std::uint64_t(64) << 20));
+}
+
+/// A texture that a material uses, what for, and whether it is stored in sRGB.
+struct Use {
+  const TextureUse* use = nullptr;
+  std::uint32_t role = 0;
+  bool srgb = false;
+};
+
+std::array<Use, 5> texture_uses(const Material& m) {
+  return {Use{&m.base_color_texture, texture_base_color, true},
+          Use{&m.metallic_roughness_texture, texture_metallic_roughness, false},
+          Use{&m.normal_texture, texture_normal, false},
+          Use{&m.occlusion_texture, texture_occlusion, false},
+          Use{&m.emission_texture, texture_emission, true}};
+}
+
+bool is_there(const Scene& scene, const TextureUse& use) {
+  return use.texture >= 0 &&
+         !scene.images[std::size_t(scene.textures[std::size_t(use.texture)].image)].empty();
+}
+
+std::uint32_t wrap_code(Wrap wrap) {
+  switch (wrap) {
+    case Wrap::repeat:
+      return 0;
+    case Wrap::mirrored_repeat:
+      return 1;
+    default:
+      return 2;
+  }
+}
+
+std::uint32_t sampler_flags(const Sampler& sampler) {
+  std::uint32_t flags = wrap_code(sampler.wrap_u) << texture_wrap_u_shift |
+                        wrap_code(sampler.wrap_v) << texture_wrap_v_shift;
+  if (sampler.mag == Filter::linear) flags |= texture_linear_mag;
+  if (sampler.min == Filter::linear) flags |= texture_linear_min;
+  if (sampler.mip == Filter::nearest) flags |= texture_mip_nearest;
+  if (sampler.mip == Filter::linear) flags |= texture_mip_linear;
+  return flags;
+}
+
+std::vector<std::uint32_t> pack(const std::vector<Grid<u8vec4>>& levels) {
+  std::vector<std::uint32_t> words(levels.size());
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    words[i] = std::uint32_t(words.size());
+    for (const u8vec4& c : levels[i])
+      words.push_back(std::uint32_t(c.x) | std::uint32_t(c.y) << 8 | std::uint32_t(c.z) << 16 |
+                      std::uint32_t(c.w) << 24);
+  }
+  return words;
+}
+
+SceneMaterial without_textures(const Material& m) {
+  SceneMaterial result{};
+  result.base_color = m.base_color;
+  result.emission = m.emission;
+  result.metallic = m.metallic;
+  result.roughness = m.roughness;
+  result.normal_scale = m.normal_scale;
+  result.occlusion_strength = m.occlusion_strength;
+  result.alpha_cutoff = m.alpha_cutoff;
+  if (m.alpha_mode == AlphaMode::mask) result.flags |= material_flag_mask;
+  if (m.alpha_mode == AlphaMode::blend) result.flags |= material_flag_blend;
+  if (m.double_sided) result.flags |= material_flag_double_sided;
+  if (m.unlit) result.flags |= material_flag_unlit;
+  return result;
+}
+
+/// Slot of a uv set within a material; a new one if it is not there yet.
+std::uint32_t slot_of(std::vector<int>& sets, int uv_set) {
+  const auto found = std::find(sets.begin(), sets.end(), uv_set);
+  const auto slot = std::uint32_t(found - sets.begin());
+  if (found == sets.end()) sets.push_back(uv_set);
+  return slot;
+}
+
+std::vector<float> srgb_table() {
+  std::vector<float> table(256);
+  for (std::size_t code = 0; code < 256; ++code)
+    table[code] = float(linear_from_srgb(double(code) / 255.0));
+  return table;
+}
+
+std::vector<bool> images_with_mips(const Scene& scene) {
+  std::vector<bool> mipmapped(scene.images.size());
+  for (const Texture& texture : scene.textures)
+    if (texture.sampler.mip) mipmapped[std::size_t(texture.image)] = true;
+  return mipmapped;
+}
+
+}  // namespace
+
+SceneBuffers::SceneBuffers(Context& context, const Scene& scene)
+    : indices_(pool_bytes(context)),
+      vectors_(pool_bytes(context)),
+      tangents_and_colors_(pool_bytes(context)),
+      uvs_(pool_bytes(context)),
+      mipmapped_(images_with_mips(scene)),
+      linear_from_srgb_(context, srgb_table()) {
+  add_materials(context, scene);
+  for (const SceneMesh& mesh : scene.meshes) {
+    std::vector<PrimitiveSlices>& slices = primitives_.emplace_back();
+    for (const parity::Primitive& primitive : mesh.primitives)
+      slices.push_back(add_primitive(primitive));
+  }
+  indices_.upload(context);
+  vectors_.upload(context);
+  tangents_and_colors_.upload(context);
+  uvs_.upload(context);
+}
+
+void SceneBuffers::add_materials(Context& context, const Scene& scene) {
+  std::vector<SceneTexture> textures;
+  std::vector<SceneMaterial> materials;
+  for (const Material& material : scene.materials)
+    add_material(context, scene, material, textures, materials);
+  add_material(context, scene, Material{}, textures, materials);
+  materials_ = Buffer<SceneMaterial>(context, materials);
+  textures_ = Buffer<SceneTexture>(context, textures);
+}
+
+void SceneBuffers::add_material(Context& context, const Scene& scene, const Material& material,
+                                std::vector<SceneTexture>& textures,
+                                std::vector<SceneMaterial>& materials) {
+  SceneMaterial& entry = materials.emplace_back(without_textures(material));
+  entry.first_texture = std::uint32_t(textures.size());
+  std::vector<int>& sets = uv_sets_.emplace_back();
+  for (const Use& use : texture_uses(material)) {
+    if (!is_there(scene, *use.use)) continue;
+    if (material.unlit && use.role != texture_base_color) continue;
+    const Texture& texture = scene.textures[std::size_t(use.use->texture)];
+    const Texels& image = texels(context, scene, texture.image, use.srgb);
+    const mat3& m = use.use->texture_from_uv;
+    textures.push_back({.texels = image.words,
+                        .u_from_uv = vec3(m[0][0], m[1][0], m[2][0]),
+                        .v_from_uv = vec3(m[0][1], m[1][1], m[2][1]),
+                        .width = std::uint32_t(image.width),
+                        .height = std::uint32_t(image.height),
+                        .level_count = std::uint32_t(image.level_count),
+                        .flags = use.role | slot_of(sets, use.use->uv_set) << texture_slot_shift |
+                                 sampler_flags(texture.sampler)});
+    if (use.role == texture_normal) features_.normal_maps = true;
+  }
+  entry.texture_count = std::uint32_t(textures.size()) - entry.first_texture;
+  features_.textures |= entry.texture_count > 0;
+  features_.lit |= !material.unlit;
+  features_.cuts_out |= material.alpha_mode == AlphaMode::mask;
+  features_.uv_pairs = std::max(features_.uv_pairs, std::uint32_t((sets.size() + 1) / 2));
+  alpha_modes_.push_back(material.alpha_mode);
+  double_sided_.push_back(material.double_sided);
+}
+
+const SceneBuffers::Texels& SceneBuffers::texels(Context& context, const Scene& scene, int image,
+                                                 bool srgb) {
+  const auto [place, is_new] = images_.try_emplace({image, srgb});
+  if (!is_new) return place->second;
+  const Grid<u8vec4>& grid = scene.images[std::size_t(image)];
+  const std::vector<Grid<u8vec4>> levels =
+      mipmapped_[std::size_t(image)] ? mip_pyramid(grid, srgb) : std::vector<Grid<u8vec4>>{grid};
+  place->second = {Buffer<std::uint32_t>(context, pack(levels)), grid.width(), grid.height(),
+                   int(levels.size())};
+  return place->second;
+}
+
+SceneBuffers::PrimitiveSlices SceneBuffers::add_primitive(const parity::Primitive& primitive) {
+  PrimitiveSlices slices;
+  slices.topology = primitive.topology;
+  slices.indices = indices_.add(primitive.indices);
+  slices.positions = vectors_.add(primitive.positions);
+  if (!primitive.normals.empty()) slices.normals = vectors_.add(primitive.normals);
+  if (!primitive.tangents.empty() && features_.normal_maps)
+    slices.tangents = tangents_and_colors_.add(primitive.tangents);
+  if (!primitive.colors.empty()) slices.colors = tangents_and_colors_.add(primitive.colors);
+  for (const std::vector<vec2>& uvs : primitive.uvs) {
+    slices.uvs.emplace_back();
+    if (!uvs.empty() && features_.textures) slices.uvs.back() = uvs_.add(uvs);
+  }
+  features_.colors |= slices.colors.has_value();
+  return slices;
+}
+
+SceneDraw SceneBuffers::describe(const PrimitiveSlices& slices, int material) const {
+  SceneDraw draw{};
+  draw.material = number(material);
+  draw.corners =
+      slices.topology == Topology::triangles ? 3 : (slices.topology == Topology::lines ? 2 : 1);
+  if (slices.topology != Topology::triangles) draw.flags |= draw_flag_unlit;
+  draw.indices = indices_.ref(slices.indices);
+  draw.positions = vectors_.ref(slices.positions);
+  if (slices.normals) {
+    draw.normals = vectors_.ref(*slices.normals);
+    draw.flags |= draw_flag_normals;
+  }
+  if (slices.tangents) {
+    draw.tangents = tangents_and_colors_.ref(*slices.tangents);
+    draw.flags |= draw_flag_tangents;
+  }
+  if (slices.colors) {
+    draw.colors = tangents_and_colors_.ref(*slices.colors);
+    draw.flags |= draw_flag_colors;
+  }
+  const std::vector<int>& sets = uv_sets_[draw.material];
+  for (std::size_t slot = 0; slot < sets.size(); ++slot) {
+    const auto set = std::size_t(sets[slot]);
+    if (set >= slices.uvs.size() || !slices.uvs[set]) continue;
+    draw.uvs[slot] = uvs_.ref(*slices.uvs[set]);
+    draw.flags |= draw_flag_uvs << slot;
+  }
+  return draw;
+}
+
+}  // namespace parity::gpu

@@ -1,0 +1,152 @@
+#include "gpu/raster/scene_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+namespace parity::gpu {
+namespace {
+
+std::uint32_t corners_of(Topology topology) {
+  return topology == Topology::triangles ? 3 : (topology == Topology::lines ? 2 : 1);
+}
+
+vec4 clip_position(const mat4& m, const vec3& p) {
+  return ((m[0] * p.x + m[1] * p.y) + m[2] * p.z) + m[3];
+}
+
+/// Grows with the distance from the viewer.
+float view_depth(const Frame& frame, const vec4& clip) {
+  if (!frame.orthographic) return clip.w;
+  return frame.options.depth == DepthMode::reverse_z ? -clip.z : clip.z;
+}
+
+vec3 centroid(const std::vector<vec3>& positions, const std::uint32_t* corners,
+              std::uint32_t count) {
+  const vec3& a = positions[corners[0]];
+  if (count == 1) return a;
+  const vec3& b = positions[corners[1]];
+  if (count == 2) return (a + b) * 0.5f;
+  return ((a + b) + positions[corners[2]]) * (1.0f / 3.0f);
+}
+
+/// Direction only: a factor keeps large and small scales within the range of float.
+mat3 direction_matrix(const dmat3& m) {
+  double largest = 0;
+  for (int column = 0; column < 3; ++column)
+    for (int row = 0; row < 3; ++row) largest = std::max(largest, std::abs(m[column][row]));
+  if (!(largest > 0) || !std::isfinite(largest)) return mat3(0.0f);
+  return mat3(m * (1.0 / largest));
+}
+
+void place(SceneDraw& draw, const Draw& from, const dvec3& origin) {
+  draw.clip_from_object = from.clip_from_object;
+  draw.world_from_object = mat3(dmat3(from.world_from_object));
+  draw.world_origin = vec3(dvec3(from.world_from_object[3]) - origin);
+  draw.world_from_object_normal = direction_matrix(from.world_from_object_normal);
+  if (from.mirrored) draw.flags |= draw_flag_mirrored;
+}
+
+SceneLight place(const PlacedLight& placed, const dvec3& origin) {
+  const Light& light = placed.light;
+  SceneLight result{};
+  result.position = vec3(placed.position - origin);
+  result.kind = light.kind == LightKind::directional
+                    ? light_directional
+                    : (light.kind == LightKind::point ? light_point : light_spot);
+  result.direction = vec3(placed.direction);
+  result.inverse_range = light.range > 0 && std::isfinite(light.range) ? 1.0f / light.range : 0.0f;
+  result.intensity = light.color * light.intensity;
+  const double inner = std::cos(double(light.inner_cone_angle));
+  const double outer = std::cos(double(light.outer_cone_angle));
+  const double scale = 1.0 / std::max(0.001, inner - outer);
+  result.angle_scale = float(scale);
+  result.angle_offset = float(-outer * scale);
+  return result;
+}
+
+std::vector<SceneLight> place_lights(const Frame& frame) {
+  std::vector<SceneLight> lights;
+  for (const PlacedLight& light : frame.lights) lights.push_back(place(light, frame.eye));
+  return lights;
+}
+
+double log2_far_over_near(const Frame& frame) {
+  if (frame.options.depth != DepthMode::logarithmic) return 1;
+  if (!(frame.near > 0) || !(frame.far > frame.near))
+    throw std::invalid_argument("gpu::Renderer: logarithmic depth from " +
+                                std::to_string(frame.near) + " to " + std::to_string(frame.far) +
+                                ", must be from above 0 to a finite far plane beyond");
+  return std::log2(frame.far / frame.near);
+}
+
+}  // namespace
+
+BlendedPrimitives::BlendedPrimitives(const Scene& scene) {
+  for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh)
+    for (std::size_t i = 0; i < scene.meshes[mesh].primitives.size(); ++i) {
+      const parity::Primitive& primitive = scene.meshes[mesh].primitives[i];
+      if (primitive.material < 0 ||
+          scene.materials[std::size_t(primitive.material)].alpha_mode != AlphaMode::blend)
+        continue;
+      elements_[{int(mesh), int(i)}] = {primitive.topology, primitive.positions, primitive.indices};
+    }
+}
+
+std::vector<uvec2> BlendedPrimitives::order(const Frame& frame) const {
+  std::vector<uvec2> elements;
+  std::vector<float> depths;
+  for (std::size_t draw = 0; draw < frame.draws.size(); ++draw) {
+    const Draw& d = frame.draws[draw];
+    const auto found = elements_.find({d.mesh, d.primitive});
+    if (found == elements_.end()) continue;
+    const std::uint32_t corners = corners_of(found->second.topology);
+    const std::vector<std::uint32_t>& indices = found->second.indices;
+    for (std::size_t first = 0; first + corners <= indices.size(); first += corners) {
+      const vec3 middle = centroid(found->second.positions, &indices[first], corners);
+      const float depth = view_depth(frame, clip_position(d.clip_from_object, middle));
+      elements.emplace_back(std::uint32_t(draw), std::uint32_t(first));
+      depths.push_back(std::isnan(depth) ? 0.0f : depth);  // what cannot be seen may stand anywhere
+    }
+  }
+  std::vector<std::size_t> ranks(elements.size());
+  std::iota(ranks.begin(), ranks.end(), std::size_t{0});
+  std::stable_sort(ranks.begin(), ranks.end(),
+                   [&](std::size_t a, std::size_t b) { return depths[a] > depths[b]; });
+  std::vector<uvec2> sorted;
+  sorted.reserve(elements.size());
+  for (const std::size_t rank : ranks) sorted.push_back(elements[rank]);
+  return sorted;
+}
+
+SceneFrame::SceneFrame(Context& context, const SceneBuffers& scene,
+                       const BlendedPrimitives& blended, const Frame& frame)
+    : order_(blended.order(frame)) {
+  std::uint32_t first_element = 0;
+  for (const Draw& draw : frame.draws) {
+    const SceneBuffers::PrimitiveSlices& slices = scene.primitive(draw.mesh, draw.primitive);
+    SceneDraw& entry = draws_.emplace_back(scene.describe(slices, draw.material));
+    place(entry, draw, frame.eye);
+    entry.first_element = first_element;
+    first_element += std::uint32_t(slices.indices.count / entry.corners);
+    if (entry.corners == 3) triangle_count_ += slices.indices.count / 3;
+  }
+  draw_buffer_ = Buffer<SceneDraw>(context, draws_);
+  light_buffer_ = Buffer<SceneLight>(context, place_lights(frame));
+  order_buffer_ = Buffer<uvec2>(context, order_);
+  args_ = {.draws = draw_buffer_,
+           .materials = scene.materials(),
+           .textures = scene.textures(),
+           .lights = light_buffer_,
+           .linear_from_srgb = scene.linear_from_srgb(),
+           .order = order_buffer_,
+           .ambient = frame.ambient,
+           .light_count = std::uint32_t(frame.lights.size()),
+           .backward = vec3(frame.backward),
+           .orthographic = frame.orthographic ? 1u : 0u,
+           .near = float(frame.near),
+           .log2_far_over_near = float(log2_far_over_near(frame))};
+}
+
+}  // namespace parity::gpu

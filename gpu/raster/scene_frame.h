@@ -1,0 +1,53 @@
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "geometry/frame.h"
+#include "gpu/core/buffer.h"
+#include "gpu/raster/scene_buffers.h"
+
+namespace parity::gpu {
+
+/// Host copy of what is blended: its elements are sorted anew for every frame.
+class BlendedPrimitives {
+ public:
+  explicit BlendedPrimitives(const Scene& scene);
+
+  /// Elements of all blended draws, farthest centroid first, equal ones in the order of the scene:
+  /// draw and first index of each.
+  std::vector<uvec2> order(const Frame& frame) const;
+
+ private:
+  struct Elements {
+    Topology topology = Topology::triangles;
+    std::vector<vec3> positions;
+    std::vector<std::uint32_t> indices;
+  };
+  std::map<std::pair<int, int>, Elements> elements_;  ///< by mesh and primitive
+};
+
+/// A frame on the device: what all its shaders read.
+class SceneFrame {
+ public:
+  /// @throws std::invalid_argument  logarithmic depth without a far plane.
+  SceneFrame(Context& context, const SceneBuffers& scene, const BlendedPrimitives& blended,
+             const Frame& frame);
+
+  const SceneArgs& args() const { return args_; }
+  const std::vector<SceneDraw>& draws() const { return draws_; }
+  const std::vector<uvec2>& order() const { return order_; }
+  std::uint64_t triangle_count() const { return triangle_count_; }
+
+ private:
+  std::vector<SceneDraw> draws_;  ///< as Frame::draws
+  std::vector<uvec2> order_;
+  Buffer<SceneDraw> draw_buffer_;
+  Buffer<SceneLight> light_buffer_;
+  Buffer<uvec2> order_buffer_;
+  SceneArgs args_{};
+  std::uint64_t triangle_count_ = 0;
+};
+
+}  // namespace parity::gpu

@@ -1,0 +1,7 @@
+#version 460
+#include "raster/scene_fragment.glsl"
+
+// One fragment of the scene.
+void main() {
+  out_color = shade();
+}

@@ -1,0 +1,10 @@
+#version 460
+#include "raster/scene_fragment.glsl"
+
+// One fragment of the scene, and which element it is of.
+layout(location = 1) out uint out_element;
+
+void main() {
+  out_color = shade();
+  out_element = ids.y;
+}

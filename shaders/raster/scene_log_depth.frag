@@ -1,0 +1,8 @@
+#version 460
+#include "raster/scene_fragment.glsl"
+
+// One fragment of the scene, with logarithmic depth.
+void main() {
+  gl_FragDepth = logarithmic_depth();
+  out_color = shade();
+}

@@ -1,0 +1,610 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "gpu/raster/half.h"
+#include "gpu/raster/renderer.h"
+#include "tests/gpu_context.h"
+
+namespace parity {
+namespace {
+
+/// Most tests look at values only: without the validation layer, whose instrumented shaders take
+/// seconds to compile. TheValidationLayerHasNothingToSay draws everything with it.
+gpu::Context& plain_context() {
+  static gpu::Context context({.validation = false, .guard = gpu::Guard::zones});
+  return context;
+}
+
+// Some fifty roundings stand between the scene and a pixel; each is at most 2^-24 of the value.
+constexpr double shading_tolerance = 50 * 0x1p-24;
+
+/// The square [-size, size]^2 at depth z, facing +z; texture coordinate (0, 0) at its top left.
+parity::Primitive square(float size, float z, int material = 0) {
+  //  3---2
+  //  | / |
+  //  0---1
+  parity::Primitive p;
+  p.material = material;
+  p.positions = {{-size, -size, z}, {size, -size, z}, {size, size, z}, {-size, size, z}};
+  p.normals.assign(4, vec3(0, 0, 1));
+  p.uvs = {{{0, 1}, {1, 1}, {1, 0}, {0, 0}}};
+  p.indices = {0, 1, 2, 0, 2, 3};
+  return p;
+}
+
+/// A scene seen from (0, 0, 5) along -z: at z = 0 the picture shows [-1, 1]^2.
+struct Stage {
+  Scene scene;
+  FrameOptions options;
+
+  Stage() {
+    Camera camera;
+    camera.vertical_fov = 2 * std::atan(0.2);
+    camera.near = 1;
+    camera.far = 100;
+    scene.cameras = {camera};
+    Node node;
+    node.camera = 0;
+    node.parent_from_node[3] = dvec4(0, 0, 5, 1);
+    scene.nodes = {node};
+    options.width = 33;
+    options.height = 33;
+  }
+
+  Material& add_material() { return scene.materials.emplace_back(); }
+
+  Material& add_unlit(const vec4& color) {
+    Material& material = add_material();
+    material.unlit = true;
+    material.base_color = color;
+    return material;
+  }
+
+  void add(const parity::Primitive& primitive, const dmat4& world_from_node = dmat4(1.0)) {
+    Node node;
+    node.mesh = int(scene.meshes.size());
+    node.parent_from_node = world_from_node;
+    scene.meshes.push_back({"", {primitive}});
+    scene.nodes.push_back(node);
+  }
+
+  /// A light at `position` that shines along -z.
+  void add_light(const Light& light, const dvec3& position = dvec3(0, 0, 5)) {
+    Node node;
+    node.light = int(scene.lights.size());
+    node.parent_from_node[3] = dvec4(position, 1);
+    scene.lights.push_back(light);
+    scene.nodes.push_back(node);
+  }
+
+  int add_texture(const Grid<u8vec4>& image, const Sampler& sampler) {
+    scene.images.push_back(image);
+    scene.textures.push_back({int(scene.images.size()) - 1, sampler});
+    return int(scene.textures.size()) - 1;
+  }
+
+  Frame frame() const { return make_frame(scene, options); }
+
+  Picture render(gpu::RenderOptions render_options = {.elements = false,
+                                                      .full_float = true}) const {
+    return gpu::render(plain_context(), scene, frame(), render_options);
+  }
+};
+
+Light directional(float intensity) {
+  Light light;
+  light.kind = LightKind::directional;
+  light.intensity = intensity;
+  return light;
+}
+
+Sampler nearest() {
+  return {.wrap_u = Wrap::clamp_to_edge,
+          .wrap_v = Wrap::clamp_to_edge,
+          .mag = Filter::nearest,
+          .min = Filter::nearest,
+          .mip = std::nullopt};
+}
+
+void expect_near(const vec4& got, const vec4& want, double tolerance) {
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(got[i], want[i], tolerance) << "component " << i;
+}
+
+vec4 middle(const Picture& picture) {
+  return picture.color(picture.color.width() / 2, picture.color.height() / 2);
+}
+
+/// Radiance of a dielectric seen and lit along its normal by irradiance 1. All cosines are 1, so
+/// F = 0.04, D = 1 / (pi alpha^2), V = 1/4.
+double head_on(double base, double roughness) {
+  const double alpha = roughness * roughness;
+  return 0.96 * base / std::numbers::pi + 0.04 * 0.25 / (std::numbers::pi * alpha * alpha);
+}
+
+TEST(GpuRenderer, AnEmptySceneShowsTheBackgroundPremultiplied) {
+  Stage stage;
+  stage.options.background = vec4(0.5f, 0.25f, 1.0f, 0.5f);
+  const Picture picture = stage.render({.elements = true, .full_float = true});
+  for (const vec4& pixel : picture.color) expect_near(pixel, vec4(0.25f, 0.125f, 0.5f, 0.5f), 0);
+  for (const std::uint32_t element : picture.element) EXPECT_EQ(element, 0u);
+  for (const float depth : picture.depth) EXPECT_EQ(depth, 0.0f);
+  EXPECT_EQ(picture.triangle_count, 0u);
+}
+
+TEST(GpuRenderer, ASquareLitHeadOnHasTheAnalyticRadiance) {
+  Stage stage;
+  Material& material = stage.add_material();
+  material.base_color = vec4(0.8f, 0.5f, 0.2f, 1.0f);
+  material.metallic = 0;
+  material.roughness = 0.7f;
+  stage.add(square(2, 0));
+  stage.add_light(directional(3));
+  const vec4 got = middle(stage.render());
+  const double alpha4 = 3 * head_on(0, 0.7f);
+  expect_near(
+      got,
+      vec4(3 * 0.96 * 0.8 / std::numbers::pi + alpha4, 3 * 0.96 * 0.5 / std::numbers::pi + alpha4,
+           3 * 0.96 * 0.2 / std::numbers::pi + alpha4, 1),
+      shading_tolerance);
+}
+
+TEST(GpuRenderer, APointLightFallsOffWithTheSquareAndEndsAtItsRange) {
+  Stage stage;
+  Material& material = stage.add_material();
+  material.metallic = 0;
+  stage.add(square(2, 0));
+  Light light;
+  light.intensity = 100;
+  light.range = 10;
+  stage.add_light(light);
+  const double window = 1 - std::pow(5.0 / 10.0, 4);
+  expect_near(middle(stage.render()), vec4(vec3(100 / 25.0 * window * head_on(1, 1)), 1),
+              4 * shading_tolerance);
+  stage.scene.lights[0].range = 4.9f;
+  expect_near(middle(stage.render()), vec4(0, 0, 0, 1), 0);
+}
+
+TEST(GpuRenderer, ASpotLightIsDarkOutsideItsConeAndFullInside) {
+  Stage stage;
+  Material& material = stage.add_material();
+  material.metallic = 0;
+  stage.add(square(2, 0));
+  Light light;
+  light.kind = LightKind::spot;
+  light.intensity = 25;
+  light.inner_cone_angle = 0.05f;
+  light.outer_cone_angle = 0.1f;  // reaches 0.5 of the 1 that the picture shows
+  stage.add_light(light);
+  const Picture picture = stage.render();
+  expect_near(middle(picture), vec4(vec3(head_on(1, 1)), 1), 2 * shading_tolerance);
+  expect_near(picture.color(0, 16), vec4(0, 0, 0, 1), 0);
+}
+
+TEST(GpuRenderer, AWhiteDielectricVanishesInAUniformEnvironment) {
+  Stage stage;
+  Material& material = stage.add_material();
+  material.metallic = 0;
+  material.roughness = 0.4f;
+  stage.add(square(3, 0), dmat4(glm::mat3_cast(dquat(std::cos(0.4), 0, std::sin(0.4), 0))));
+  Frame frame = stage.frame();
+  frame.lights.clear();
+  frame.ambient = vec3(0.25f, 0.5f, 2.0f);
+  const Picture picture =
+      gpu::render(plain_context(), stage.scene, frame, {.elements = false, .full_float = true});
+  for (const vec4& pixel : picture.color)
+    expect_near(pixel, vec4(0.25f, 0.5f, 2.0f, 1.0f), 2 * shading_tolerance);
+}
+
+TEST(GpuRenderer, AMaskKeepsWhatReachesTheCutoff) {
+  Stage stage;
+  Grid<u8vec4> image(3, 1, u8vec4(255));
+  image(0, 0).w = 127;
+  image(1, 0).w = 128;
+  const int texture = stage.add_texture(image, nearest());
+  Material& material = stage.add_unlit(vec4(1));
+  material.alpha_mode = AlphaMode::mask;
+  material.alpha_cutoff = float(128.0 / 255.0);
+  material.base_color_texture.texture = texture;
+  stage.add(square(1, 0));
+  const Picture picture = stage.render({.elements = true, .full_float = true});
+  expect_near(picture.color(5, 16), vec4(0), 0);
+  expect_near(picture.color(16, 16), vec4(1), 0);
+  expect_near(picture.color(27, 16), vec4(1), 0);
+  EXPECT_EQ(picture.depth(5, 16), 0.0f);
+  EXPECT_EQ(picture.element(5, 16), 0u);
+  EXPECT_GT(picture.depth(27, 16), 0.0f);
+}
+
+TEST(GpuRenderer, BlendedLayersAreSortedAndDrawnOver) {
+  Stage stage;
+  stage.add_unlit(vec4(1, 0, 0, 0.5f)).alpha_mode = AlphaMode::blend;
+  stage.add_unlit(vec4(0, 1, 0, 0.25f)).alpha_mode = AlphaMode::blend;
+  stage.add_unlit(vec4(0, 0, 1, 1));
+  stage.add(square(2, 1, 0));   // near, first in the scene
+  stage.add(square(2, 0, 1));   // far
+  stage.add(square(2, 2, 1));   // nearer
+  stage.add(square(2, -1, 2));  // opaque, behind
+  stage.add(square(2, -2, 0));  // hidden
+  const vec4 want(0.5f * 0.75f, 0.25f + 0.75f * 0.5f * 0.25f, 0.75f * 0.5f * 0.75f, 1);
+  const Picture picture = stage.render({.elements = true, .full_float = true});
+  expect_near(middle(picture), want, 0);
+  // The opaque square's triangles are numbers 7 and 8 of all; blending leaves depth and element.
+  EXPECT_TRUE(picture.element(16, 20) == 7u || picture.element(16, 20) == 8u);
+  const double near = 1;
+  const double far = 100;
+  EXPECT_NEAR(picture.depth(16, 16), near * (far - 6) / (6 * (far - near)), 4 * 0x1p-24);
+}
+
+TEST(GpuRenderer, AMirroredSquareStillFacesTheViewerAndATurnedOneDoesNot) {
+  Stage stage;
+  stage.add_unlit(vec4(1));
+  dmat4 mirror(1.0);
+  mirror[0][0] = -1;
+  stage.add(square(2, 0), mirror);
+  expect_near(middle(stage.render()), vec4(1), 0);
+  dmat4 turn(1.0);
+  turn[0][0] = turn[2][2] = -1;
+  stage.scene.nodes.back().parent_from_node = turn;
+  expect_near(middle(stage.render()), vec4(0), 0);
+  stage.scene.materials[0].double_sided = true;
+  expect_near(middle(stage.render()), vec4(1), 0);
+}
+
+TEST(GpuRenderer, BlendedBackFacesAreCulledUnlessDoubleSided) {
+  Stage stage;
+  stage.add_unlit(vec4(1, 1, 1, 0.5f)).alpha_mode = AlphaMode::blend;
+  dmat4 turn(1.0);
+  turn[0][0] = turn[2][2] = -1;
+  stage.add(square(2, 0), turn);
+  expect_near(middle(stage.render()), vec4(0), 0);
+  stage.scene.materials[0].double_sided = true;
+  expect_near(middle(stage.render()), vec4(0.5f), 0);
+  dmat4 mirror(1.0);
+  mirror[1][1] = -1;
+  stage.scene.nodes.back().parent_from_node = mirror;
+  stage.scene.materials[0].double_sided = false;
+  expect_near(middle(stage.render()), vec4(0.5f), 0);
+}
+
+TEST(GpuRenderer, TheBackOfADoubleSidedSquareIsLitLikeTheFront) {
+  Stage stage;
+  Material& material = stage.add_material();
+  material.metallic = 0;
+  material.double_sided = true;
+  dmat4 turn(1.0);
+  turn[0][0] = turn[2][2] = -1;
+  stage.add(square(2, 0), turn);
+  stage.add_light(directional(1));
+  expect_near(middle(stage.render()), vec4(vec3(head_on(1, 1)), 1), shading_tolerance);
+}
+
+TEST(GpuRenderer, NearestTexelsAreDecodedFromSrgbExactly) {
+  Stage stage;
+  Grid<u8vec4> image(3, 3, u8vec4(0, 0, 0, 255));
+  image(0, 0) = u8vec4(255, 10, 188, 255);  // top left
+  image(2, 1) = u8vec4(128, 64, 32, 255);
+  const int texture = stage.add_texture(image, nearest());
+  stage.add_unlit(vec4(1)).base_color_texture.texture = texture;
+  stage.add(square(1, 0));
+  const Picture picture = stage.render();
+  const auto decode = [](double code) {
+    const double c = code / 255;
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+  };
+  expect_near(picture.color(4, 4), vec4(1, decode(10), decode(188), 1), 0x1p-24);
+  expect_near(picture.color(28, 16), vec4(decode(128), decode(64), decode(32), 1), 0x1p-24);
+  expect_near(picture.color(16, 28), vec4(0, 0, 0, 1), 0);
+}
+
+/// Two texels, black and white, over a square that is 33 pixels wide; alpha stays linear.
+Stage ramp(Wrap wrap) {
+  Stage stage;
+  Grid<u8vec4> image(2, 1, u8vec4(255, 255, 255, 0));
+  image(1, 0).w = 255;
+  Sampler sampler = nearest();
+  sampler.mag = sampler.min = Filter::linear;
+  sampler.wrap_u = wrap;
+  const int texture = stage.add_texture(image, sampler);
+  Material& material = stage.add_unlit(vec4(1));
+  material.base_color_texture.texture = texture;
+  material.alpha_mode = AlphaMode::blend;
+  stage.add(square(1, 0));
+  return stage;
+}
+
+TEST(GpuRenderer, LinearFilteringIsARampBetweenTexelCentres) {
+  const std::array<Wrap, 3> wraps{Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge};
+  for (const Wrap wrap : wraps) {
+    const Picture picture = ramp(wrap).render();
+    for (int x = 0; x < 33; ++x) {
+      const double u = (x + 0.5) / 33;
+      const double t = 2 * u - 0.5;  // 0 at the centre of the first texel, 1 at that of the second
+      const double outside = wrap == Wrap::repeat ? (t < 0 ? -t : 2 - t) : (t < 0 ? 0 : 1);
+      const double want = t < 0 || t > 1 ? outside : t;
+      EXPECT_NEAR(picture.color(x, 16).w, want, 16 * 0x1p-24) << "x " << x;
+    }
+  }
+}
+
+TEST(GpuRenderer, TextureCoordinatesBelowZeroAndAboveOneWrap) {
+  for (const Wrap wrap : {Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge}) {
+    Stage stage;
+    Grid<u8vec4> image(2, 1, u8vec4(0, 0, 0, 255));
+    image(1, 0) = u8vec4(255);
+    Sampler sampler = nearest();
+    sampler.wrap_u = wrap;
+    const int texture = stage.add_texture(image, sampler);
+    stage.add_unlit(vec4(1)).base_color_texture.texture = texture;
+    parity::Primitive primitive = square(1, 0);
+    for (vec2& uv : primitive.uvs[0]) uv.x = 6 * uv.x - 3;
+    stage.add(primitive);
+    stage.options.width = stage.options.height = 36;  // six pixels to a period, three to a texel
+    const Picture picture = stage.render();
+    const std::array<const char*, 3> want{"010101010101", "100110011001", "000000011111"};
+    for (int texel = 0; texel < 12; ++texel)
+      EXPECT_EQ(picture.color(3 * texel + 1, 16).x, float(want[std::size_t(wrap)][texel] - '0'))
+          << "wrap " << int(wrap) << " texel " << texel;
+  }
+}
+
+TEST(GpuRenderer, MipLevelsFollowTheFootprint) {
+  // 64 texels over 16 pixels: two levels up exactly, where the checks of one texel are grey.
+  Stage stage;
+  Grid<u8vec4> image(64, 64);
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) image(x, y) = u8vec4(255, 255, 255, (x + y) % 2 * 255);
+  Sampler sampler;
+  sampler.mip = Filter::nearest;
+  const int texture = stage.add_texture(image, sampler);
+  Material& material = stage.add_unlit(vec4(1));
+  material.base_color_texture.texture = texture;
+  material.alpha_mode = AlphaMode::blend;
+  stage.add(square(1, 0));
+  stage.options.width = stage.options.height = 16;
+  for (const vec4& pixel : stage.render().color) EXPECT_NEAR(pixel.w, 0.5, 1.0 / 255);
+  stage.scene.textures[0].sampler.min = Filter::nearest;
+  stage.scene.textures[0].sampler.mip = std::nullopt;
+  for (const vec4& pixel : stage.render().color) EXPECT_TRUE(pixel.w == 0 || pixel.w == 1);
+}
+
+TEST(GpuRenderer, ATextureTransformMovesTheTexture) {
+  Stage stage;
+  Grid<u8vec4> image(2, 2, u8vec4(0, 0, 0, 255));
+  image(1, 0) = u8vec4(255);
+  Sampler sampler = nearest();
+  sampler.wrap_u = Wrap::repeat;
+  const int texture = stage.add_texture(image, sampler);
+  TextureUse& use = stage.add_unlit(vec4(1)).base_color_texture;
+  use.texture = texture;
+  use.texture_from_uv[2] = vec3(0.5f, 0, 1);  // (u + 1/2, v): the white texel moves left
+  stage.add(square(1, 0));
+  const Picture picture = stage.render();
+  EXPECT_EQ(picture.color(8, 8).x, 1.0f);
+  EXPECT_EQ(picture.color(24, 8).x, 0.0f);
+  EXPECT_EQ(picture.color(8, 24).x, 0.0f);
+}
+
+TEST(GpuRenderer, ANormalMapActsAsTiltedNormals) {
+  // The map's normal is (3, 0, 4) / 5 up to its 8 bits: compared with normals of the same texel.
+  const u8vec4 texel(204, 128, 230, 255);
+  const vec3 n = 2.0f * vec3(texel) / 255.0f - 1.0f;
+  for (const double sign : {1.0, -1.0}) {
+    Stage mapped;
+    Stage tilted;
+    for (Stage* stage : {&mapped, &tilted}) {
+      Material& material = stage->add_material();
+      material.roughness = 0.6f;
+      material.base_color = vec4(0.9f, 0.6f, 0.3f, 1);
+      stage->add_light(directional(2));
+    }
+    const int texture = mapped.add_texture(Grid<u8vec4>(1, 1, texel), nearest());
+    mapped.scene.materials[0].normal_texture.texture = texture;
+    dmat4 place(1.0);
+    place[0][0] = 3 * sign;  // scaled, and mirrored
+    place[1][1] = place[2][2] = 3;
+    parity::Primitive primitive = square(2, 0);
+    primitive.tangents.assign(4, vec4(1, 0, 0, 1));
+    mapped.add(primitive, place);
+    primitive.tangents.clear();
+    primitive.normals.assign(4, glm::normalize(vec3(float(sign) * n.x, n.y, n.z)));
+    tilted.add(primitive);
+    expect_near(middle(mapped.render()), middle(tilted.render()), 2 * shading_tolerance);
+  }
+}
+
+TEST(GpuRenderer, EverySampleCountShowsAFullSquareAlike) {
+  Stage stage;
+  Material& material = stage.add_material();
+  material.base_color = vec4(0.2f, 0.5f, 0.9f, 1);
+  stage.add(square(2, 0));
+  Light light;
+  light.intensity = 50;
+  stage.add_light(light, dvec3(0.5, 0.5, 3));
+  const Picture single = stage.render();
+  for (const int samples : {4}) {
+    stage.options.samples = samples;
+    const Picture several = stage.render({.elements = true, .full_float = true});
+    for (std::size_t i = 0; i < single.color.size(); ++i)
+      expect_near(several.color.values()[i], single.color.values()[i], shading_tolerance);
+    for (const std::uint32_t element : several.element) EXPECT_TRUE(element == 1u || element == 2u);
+  }
+}
+
+TEST(GpuRenderer, AnEdgeIsCoveredByTheShareOfItsSamples) {
+  // The right half of a pixel column: x > 0 covers the sample places with x > 1/2 of pixel 16.
+  const std::array<std::pair<int, double>, 2> shares{{{1, 1.0}, {4, 0.5}}};
+  for (const auto& [samples, share] : shares) {
+    Stage stage;
+    stage.add_unlit(vec4(1));
+    parity::Primitive primitive = square(2, 0);
+    primitive.positions[0].x = primitive.positions[3].x = 0;
+    stage.add(primitive);
+    stage.options.samples = samples;
+    const Picture picture = stage.render();
+    EXPECT_EQ(picture.color(15, 16).x, 0.0f) << samples;
+    EXPECT_EQ(picture.color(16, 16).x, float(share)) << samples;
+    EXPECT_EQ(picture.color(17, 16).x, 1.0f) << samples;
+  }
+}
+
+TEST(GpuRenderer, DepthFollowsItsConvention) {
+  Stage stage;
+  stage.add_unlit(vec4(1));
+  stage.add(square(2, 0));
+  const double n = 1;
+  const double f = 100;
+  const double w = 5;
+  const std::array<std::pair<DepthMode, double>, 3> wants{
+      {{DepthMode::standard, f * (w - n) / (w * (f - n))},
+       {DepthMode::reverse_z, n * (f - w) / (w * (f - n))},
+       {DepthMode::logarithmic, std::log2(w / n) / std::log2(f / n)}}};
+  for (const auto& [mode, want] : wants) {
+    stage.options.depth = mode;
+    // log2 may be off by 3 units in the last place, here of 2.3.
+    EXPECT_NEAR(stage.render().depth(16, 16), want, 8 * 0x1p-24) << int(mode);
+  }
+}
+
+TEST(GpuRenderer, TheNearerSquareIsSeenInEveryDepthMode) {
+  for (const DepthMode mode : {DepthMode::standard, DepthMode::reverse_z, DepthMode::logarithmic}) {
+    Stage stage;
+    stage.add_unlit(vec4(1, 0, 0, 1));
+    stage.add_unlit(vec4(0, 1, 0, 1));
+    stage.add(square(2, -1, 0));
+    stage.add(square(2, 1, 1));
+    stage.add(square(2, 0, 0));
+    stage.options.depth = mode;
+    const Picture picture = stage.render({.elements = true, .full_float = true});
+    expect_near(middle(picture), vec4(0, 1, 0, 1), 0);
+    EXPECT_TRUE(picture.element(16, 20) == 3u || picture.element(16, 20) == 4u);
+  }
+}
+
+TEST(GpuRenderer, OfEqualDepthsTheFirstIsKept) {
+  Stage stage;
+  stage.add_unlit(vec4(1, 0, 0, 1)).alpha_mode = AlphaMode::mask;
+  stage.add_unlit(vec4(0, 1, 0, 1)).double_sided = true;
+  stage.add(square(2, 0, 1));
+  stage.add(square(2, 0, 0));
+  expect_near(middle(stage.render()), vec4(0, 1, 0, 1), 0);
+}
+
+TEST(GpuRenderer, PointsAndLinesShowTheirBaseColour) {
+  for (const int samples : {1, 4}) {
+    Stage stage;
+    stage.add_material().base_color = vec4(1, 0.5f, 0.25f, 1);
+    parity::Primitive points;
+    points.topology = Topology::points;
+    points.material = 0;
+    points.positions = {{0, 0, 0}, {-0.5f, 0.5f, 0}};
+    points.indices = {0, 1};
+    points.colors = {{1, 1, 1, 1}, {0, 1, 1, 1}};
+    stage.add(points);
+    parity::Primitive line = points;
+    line.topology = Topology::lines;
+    // From the middle of pixel 24 of row 4 downwards to row 28.
+    line.positions = {{8 * 2 / 33.0f, 12 * 2 / 33.0f, 0}, {8 * 2 / 33.0f, -12 * 2 / 33.0f, 0}};
+    line.colors.clear();
+    stage.add(line);
+    stage.options.samples = samples;
+    const Picture picture = stage.render({.elements = true, .full_float = true});
+    expect_near(middle(picture), vec4(1, 0.5f, 0.25f, 1), 0);
+    EXPECT_EQ(picture.element(16, 16), 1u);
+    for (int y = 6; y < 27; ++y) {
+      expect_near(picture.color(24, y), vec4(1, 0.5f, 0.25f, 1), 0);
+      EXPECT_EQ(picture.element(24, y), 3u);
+    }
+    int lit = 0;
+    for (int x = 0; x < 33; ++x) lit += picture.color(x, 10).w > 0 ? 1 : 0;
+    EXPECT_EQ(lit, 1) << "the line is one pixel wide";
+  }
+}
+
+TEST(GpuRenderer, SingularAndOutOfViewPlacesDrawNothingAndHarmNothing) {
+  Stage stage;
+  Material& material = stage.add_material();
+  material.double_sided = true;
+  stage.add(square(2, 0), dmat4(0.0));
+  dmat4 flat(1.0);
+  flat[2][2] = 0;
+  stage.add(square(0.5f, 3), flat);
+  dmat4 behind(1.0);
+  behind[3] = dvec4(0, 0, 50, 1);
+  stage.add(square(2, 0), behind);
+  stage.add_light(directional(1));
+  for (const int samples : {1, 4}) {
+    stage.options.samples = samples;
+    for (const vec4& pixel : stage.render().color)
+      for (int i = 0; i < 4; ++i) EXPECT_TRUE(std::isfinite(pixel[i]));
+  }
+}
+
+TEST(GpuRenderer, FramesOfOneRendererAreEqualBitByBit) {
+  Stage stage;
+  stage.add_material();
+  stage.add(square(0.7f, 0));
+  stage.add_light(directional(1));
+  gpu::Renderer renderer(plain_context(), stage.scene);
+  const Frame frame = stage.frame();
+  const Picture first = renderer.render(frame);
+  stage.options.width = 50;
+  renderer.render(stage.frame());
+  const Picture again = renderer.render(frame);
+  EXPECT_EQ(first.color, again.color);
+  EXPECT_EQ(first.depth, again.depth);
+  EXPECT_GT(first.memory_bytes, 0u);
+}
+
+TEST(GpuRenderer, HalfPrecisionEndsAtItsLargestNumber) {
+  Stage stage;
+  stage.add_unlit(vec4(1e9f, 1, 0.333333343f, 1));
+  stage.add(square(2, 0));
+  const vec4 got = middle(stage.render({.elements = false, .full_float = false}));
+  EXPECT_EQ(got.x, 65504.0f);
+  EXPECT_EQ(got.y, 1.0f);
+  EXPECT_NEAR(got.z, 0.333333343, 0.333 * 0x1p-11);
+}
+
+TEST(GpuRenderer, TheValidationLayerHasNothingToSay) {
+  Stage stage;
+  const int texture = stage.add_texture(Grid<u8vec4>(4, 4, u8vec4(200, 120, 250, 255)), Sampler{});
+  for (const AlphaMode mode : {AlphaMode::opaque, AlphaMode::blend}) {
+    Material& material = stage.add_material();
+    material.alpha_mode = mode;
+    material.base_color_texture.texture = texture;
+    material.normal_texture.texture = texture;
+    parity::Primitive primitive = square(0.5f, float(mode), int(stage.scene.materials.size()) - 1);
+    primitive.tangents.assign(4, vec4(1, 0, 0, 1));
+    primitive.colors.assign(4, vec4(0.5f));
+    stage.add(primitive);
+  }
+  stage.add_light(directional(1));
+  stage.options.samples = 4;
+  const Picture picture = gpu::render(test_context(), stage.scene, stage.frame());
+  EXPECT_GT(middle(picture).x, 0);
+}
+
+TEST(GpuRenderer, LogarithmicDepthNeedsAFarPlane) {
+  Stage stage;
+  stage.scene.cameras[0].far.reset();
+  Frame frame = stage.frame();
+  frame.options.depth = DepthMode::logarithmic;
+  EXPECT_THROW(gpu::render(plain_context(), stage.scene, frame), std::invalid_argument);
+}
+
+TEST(Half, EveryCodeHasItsValue) {
+  EXPECT_EQ(gpu::float_from_half(0x3c00), 1.0f);
+  EXPECT_EQ(gpu::float_from_half(0xc000), -2.0f);
+  EXPECT_EQ(gpu::float_from_half(0x7bff), 65504.0f);
+  EXPECT_EQ(gpu::float_from_half(0x0001), 0x1p-24f);
+  EXPECT_EQ(gpu::float_from_half(0x83ff), -1023 * 0x1p-24f);
+  EXPECT_EQ(gpu::float_from_half(0x7c00), std::numeric_limits<float>::infinity());
+  EXPECT_TRUE(std::isnan(gpu::float_from_half(0x7e00)));
+}
+
+}  // namespace
+}  // namespace parity
