@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <memory>
+#include <stdexcept>
+#include <string>
 
 namespace parity {
 namespace {
@@ -29,17 +32,27 @@ class Watch : public testing::EmptyTestEventListener {
   return true;
 }();
 
+gpu::ContextOptions options_of_environment() {
+  const char* guard = std::getenv("PARITY_TEST_GUARD");
+  const bool fences = guard != nullptr && std::string(guard) == "fences";
+  if (guard != nullptr && !fences && std::string(guard) != "zones")
+    throw std::invalid_argument("PARITY_TEST_GUARD is " + std::string(guard) +
+                                ", must be zones or fences");
+  return {.device = "",
+          .validation = true,
+          .gpu_assisted = std::getenv("PARITY_TEST_ASSISTED") != nullptr,
+          .guard = fences ? gpu::Guard::fences : gpu::Guard::zones};
+}
+
 TEST(GpuContext, IsValidatedAndGuarded) {
   EXPECT_TRUE(test_context().options().validation);
-  EXPECT_EQ(test_context().options().guard, gpu::Guard::zones);
+  EXPECT_NE(test_context().options().guard, gpu::Guard::none);
 }
 
 }  // namespace
 
 gpu::Context& test_context() {
-  if (slot() == nullptr)
-    slot() = std::make_unique<gpu::Context>(
-        gpu::ContextOptions{.device = "", .validation = true, .guard = gpu::Guard::zones});
+  if (slot() == nullptr) slot() = std::make_unique<gpu::Context>(options_of_environment());
   return *slot();
 }
 

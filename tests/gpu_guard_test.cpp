@@ -145,7 +145,8 @@ TEST(GpuGuard, TheValidationLayerReportsAMissingBarrier) {
 }
 
 TEST(GpuGuard, TheValidationLayerReportsAccessesOutsideABuffer) {
-  gpu::Context context({.device = "", .validation = true, .guard = Guard::zones});
+  gpu::Context context(
+      {.device = "", .validation = true, .gpu_assisted = true, .guard = Guard::zones});
   const gpu::DeviceInfo& info = context.info();
   if (info.is_swiftshader || info.cuts_loops_short)
     GTEST_SKIP() << "the layer cannot check addresses on " << info.driver;

@@ -68,16 +68,15 @@ Timing timing_of(const ContextState& state, const std::vector<std::uint64_t>& ti
 ContextState::ContextState(const ContextOptions& context_options,
                            std::unique_ptr<ValidationLog> validation_log)
     : options(context_options), log(std::move(validation_log)) {
-  if (log != nullptr) {
-    // Which checks the layer may add depends on the device, so that is looked up first.
+  bool gpu_assisted = false;
+  if (log != nullptr && options.gpu_assisted) {
+    // Whether the layer errs depends on the device, so that is looked up first.
     instance.emplace(nullptr, false);
     choose(*this);
-    const bool gpu_assisted = can_assist(info);
+    gpu_assisted = can_assist(info);
     instance.reset();
-    instance.emplace(log.get(), gpu_assisted);
-  } else {
-    instance.emplace(nullptr, false);
   }
+  instance.emplace(log.get(), gpu_assisted);
   choose(*this);
   if (options.guard == Guard::fences && !info.host_memory_import)
     throw Error(ErrorKind::missing_feature,
