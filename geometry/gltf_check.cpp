@@ -114,6 +114,7 @@ void check_times(const Document& document, const Data& data, int input, const st
   const std::string what = place + ".input is accessors[" + std::to_string(input) + "], ";
   if (a.matrix || a.components != 1 || a.component != ComponentType::float32)
     throw InputError(name, what + "must be SCALAR of floats");
+  if (a.view < 0) return;
   const std::vector<glm::vec1> times = data.read<glm::vec1>(input);
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (!std::isfinite(times[i].x) || times[i].x < 0)

@@ -107,6 +107,19 @@ class PrimitiveChecker {
 
 }  // namespace
 
+void check_indices(const Document& document, const Data& data, const Primitive& primitive,
+                   const std::string& name, const std::string& place) {
+  const auto position = primitive.attributes.find("POSITION");
+  if (primitive.indices < 0 || primitive.draco || position == primitive.attributes.end()) return;
+  const std::uint64_t count = document.accessors[std::size_t(position->second)].count;
+  const std::vector<std::uint32_t> indices = data.read_unsigned(primitive.indices);
+  for (std::size_t i = 0; i < indices.size(); ++i)
+    if (indices[i] >= count)
+      throw InputError(name, place + ".indices: element " + std::to_string(i) + " is " +
+                                 std::to_string(indices[i]) + ", but there are " +
+                                 std::to_string(count) + " vertices");
+}
+
 void check_primitive(const Document& document, const Primitive& primitive, const std::string& name,
                      const std::string& place) {
   PrimitiveChecker(document, primitive, name, place).check();

@@ -57,6 +57,7 @@ class Converter {
     scene_.lights = document().lights;
     place_nodes();
     convert_nodes();
+    check_meshes_not_shown();
     if (!document().animations.empty())
       conversion_.notes.add("animations ignored, the scene is loaded in its first pose",
                             document().animations.size());
@@ -143,6 +144,19 @@ class Converter {
                                                std::to_string(j) + " is not finite");
     }
     return matrices;
+  }
+
+  void check_meshes_not_shown() {
+    for (std::size_t m = 0; m < mesh_of_.size(); ++m) {
+      const std::vector<Primitive>& primitives = document().meshes[m].primitives;
+      for (std::size_t p = 0; p < primitives.size() && mesh_of_[m] < 0; ++p) {
+        const int indices = primitives[p].indices;
+        if (indices >= 0)
+          conversion_.budget.spend(4 * document().accessors[std::size_t(indices)].count, "meshes");
+        check_indices(document(), conversion_.data, primitives[p], conversion_.name,
+                      "meshes[" + std::to_string(m) + "].primitives[" + std::to_string(p) + "]");
+      }
+    }
   }
 
   /// The mesh as it stands without a skin; shared by the nodes that do not bend it on their own.

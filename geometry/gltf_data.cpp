@@ -10,6 +10,10 @@ namespace parity::gltf {
 namespace {
 
 constexpr std::uint64_t largest_buffer = std::uint64_t(1) << 32;
+constexpr std::uint64_t largest_input = std::uint64_t(1) << 33;
+constexpr std::uint64_t base_decoded = std::uint64_t(128) << 20;
+constexpr std::uint64_t decoded_per_byte = 64;
+constexpr std::uint64_t base_sparse_count = std::uint64_t(1) << 24;
 constexpr std::uint64_t largest_zero_fill = std::uint64_t(16) << 20;
 
 std::string at(const char* list, std::size_t index) {
@@ -21,6 +25,17 @@ T load(const std::byte* from) {
   T value;
   std::memcpy(&value, from, sizeof(T));
   return value;
+}
+
+int rows_of(const Accessor& matrix) {
+  return matrix.components == 4 ? 2 : matrix.components == 9 ? 3 : 4;
+}
+
+/// Bytes at the end of an element that the last one may lack.
+std::uint64_t padding_of(const Accessor& accessor) {
+  if (!accessor.matrix) return 0;
+  const int column = rows_of(accessor) * component_size(accessor.component);
+  return std::uint64_t((column + 3) / 4 * 4 - column);
 }
 
 /// The divisor of a normalised integer; 0: not one.
@@ -44,7 +59,7 @@ float normalizing_divisor(ComponentType type) {
 int element_size(const Accessor& accessor) {
   const int component = component_size(accessor.component);
   if (!accessor.matrix) return component * accessor.components;
-  const int rows = accessor.components == 4 ? 2 : accessor.components == 9 ? 3 : 4;
+  const int rows = rows_of(accessor);
   return rows * ((rows * component + 3) / 4 * 4);
 }
 
@@ -75,13 +90,15 @@ void Data::load_buffers(std::optional<std::span<const std::byte>> binary, const 
       buffers_.back() = *binary;
       size = binary->size();
     } else {
-      continue;  // a placeholder, if all its views are compressed: see cut
+      continue;  // a placeholder for what is compressed, or never read
     }
     if (size < buffer.length)
       throw InputError(name_, place + ".byteLength is " + std::to_string(buffer.length) +
                                   ", but there are only " + std::to_string(size) + " bytes");
     buffers_.back() = buffers_.back().first(std::size_t(buffer.length));
     input_size_ += buffer.length;
+    if (input_size_ > largest_input)
+      throw InputError(name_, place + ": the buffers together have more than 8 GiB");
   }
 }
 
@@ -94,11 +111,16 @@ std::span<const std::byte> Data::cut(int buffer, std::uint64_t offset, std::uint
                                 std::to_string(length) + " is past the end of buffers[" +
                                 std::to_string(buffer) + "], which has " +
                                 std::to_string(declared) + " bytes");
-  if (bytes.empty())
-    throw InputError(name_, "buffers[" + std::to_string(buffer) + "] has no uri" +
-                                (buffer == 0 ? " and the file has no BIN chunk" : "") + ", but " +
-                                place + " reads it");
-  return bytes.subspan(std::size_t(offset), std::size_t(length));
+  return bytes.empty() ? bytes : bytes.subspan(std::size_t(offset), std::size_t(length));
+}
+
+std::span<const std::byte> Data::view(int view) const {
+  const std::span<const std::byte> bytes = views_[std::size_t(view)];
+  if (!bytes.empty()) return bytes;
+  const int buffer = document_.views[std::size_t(view)].buffer;
+  throw InputError(name_, "buffers[" + std::to_string(buffer) + "] has no uri" +
+                              (buffer == 0 ? " and the file has no BIN chunk" : "") +
+                              ", but bufferViews[" + std::to_string(view) + "] is read");
 }
 
 void Data::make_view(std::size_t index) {
@@ -115,6 +137,14 @@ void Data::make_view(std::size_t index) {
                                 " x count " + std::to_string(from.count) +
                                 " is not the view's byteLength " + std::to_string(view.length));
   const std::span<const std::byte> bytes = cut(from.buffer, from.offset, from.length, extension);
+  if (bytes.empty())
+    throw InputError(
+        name_, extension + ".buffer is " + std::to_string(from.buffer) + ", which has no bytes");
+  decoded_size_ += view.length;
+  if (decoded_size_ > base_decoded + decoded_per_byte * input_size_)
+    throw InputError(name_, extension +
+                                ": the compressed views expand to more memory than a file " +
+                                "of this size may take");
   owned_.push_back(decode_meshopt(from, bytes, name_, extension));
   views_[index] = owned_.back();
 }
@@ -127,7 +157,7 @@ std::uint64_t Data::stride_of(const Accessor& accessor) const {
 // All four are below 2^53 (stride and size below 2^9), so that nothing here wraps.
 void Data::check_fits(int view, std::uint64_t offset, std::uint64_t stride, std::uint64_t count,
                       std::uint64_t size, const std::string& place) const {
-  const std::uint64_t have = views_[std::size_t(view)].size();
+  const std::uint64_t have = document_.views[std::size_t(view)].length;
   const std::uint64_t most = have < offset + size ? 0 : (have - offset - size) / stride + 1;
   if (count > most)
     throw InputError(name_, place + ": " + std::to_string(count) +
@@ -136,7 +166,7 @@ void Data::check_fits(int view, std::uint64_t offset, std::uint64_t stride, std:
                                 std::to_string(most));
 }
 
-void Data::check_accessor(std::size_t index) const {
+void Data::check_accessor(std::size_t index) {
   const Accessor& a = document_.accessors[index];
   const std::string place = at("accessors", index);
   const std::uint64_t size = std::uint64_t(element_size(a));
@@ -152,12 +182,12 @@ void Data::check_accessor(std::size_t index) const {
       throw InputError(name_, "bufferViews[" + std::to_string(a.view) + "].byteStride is " +
                                   std::to_string(stride) + ", but an element of " + place +
                                   " has " + std::to_string(size) + " bytes");
-    check_fits(a.view, a.offset, stride, a.count, size, place);
+    check_fits(a.view, a.offset, stride, a.count, size - padding_of(a), place);
   }
   if (a.sparse) check_sparse(index);
 }
 
-void Data::check_sparse(std::size_t index) const {
+void Data::check_sparse(std::size_t index) {
   const Accessor& a = document_.accessors[index];
   const Sparse& sparse = *a.sparse;
   const std::string place = at("accessors", index) + ".sparse";
@@ -168,7 +198,11 @@ void Data::check_sparse(std::size_t index) const {
   const std::uint64_t size = std::uint64_t(element_size(a));
   check_fits(sparse.index_view, sparse.index_offset, index_size, sparse.count, index_size,
              place + ".indices");
-  check_fits(sparse.value_view, sparse.value_offset, size, sparse.count, size, place + ".values");
+  check_fits(sparse.value_view, sparse.value_offset, size, sparse.count, size - padding_of(a),
+             place + ".values");
+  sparse_count_ += sparse.count;
+  if (sparse_count_ > base_sparse_count + input_size_)
+    throw InputError(name_, place + ".count: the file has more sparse elements than bytes");
   const std::vector<std::uint32_t> places = sparse_places(a);
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (places[i] >= a.count)

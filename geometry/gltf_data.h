@@ -12,7 +12,8 @@
 
 namespace parity::gltf {
 
-/// Bytes of one element of an accessor, with the padding of matrix columns.
+/// Bytes from one packed element of an accessor to the next; columns of a matrix begin at multiples
+/// of 4.
 int element_size(const Accessor& accessor);
 
 /// The buffers of an asset, and typed reading from them. Everything that it hands out was checked
@@ -29,7 +30,8 @@ class Data {
   /// Bytes of the file and of all buffers.
   std::uint64_t input_size() const { return input_size_; }
 
-  std::span<const std::byte> view(int view) const { return views_[std::size_t(view)]; }
+  /// @throws InputError  its buffer has no bytes: no uri, and no BIN chunk.
+  std::span<const std::byte> view(int view) const;
 
   /// Elements of an accessor as floats, normalised integers divided as the specification says,
   /// others converted. Row-major: element after element.
@@ -48,8 +50,8 @@ class Data {
  private:
   void load_buffers(std::optional<std::span<const std::byte>> binary, const Origin& origin);
   void make_view(std::size_t index);
-  void check_accessor(std::size_t index) const;
-  void check_sparse(std::size_t index) const;
+  void check_accessor(std::size_t index);
+  void check_sparse(std::size_t index);
   void check_fits(int view, std::uint64_t offset, std::uint64_t stride, std::uint64_t count,
                   std::uint64_t size, const std::string& place) const;
   std::span<const std::byte> cut(int buffer, std::uint64_t offset, std::uint64_t length,
@@ -69,6 +71,8 @@ class Data {
   std::vector<std::span<const std::byte>> buffers_;
   std::vector<std::span<const std::byte>> views_;
   std::uint64_t input_size_ = 0;
+  std::uint64_t decoded_size_ = 0;  ///< of compressed views
+  std::uint64_t sparse_count_ = 0;
 };
 
 template <typename Vector>

@@ -106,25 +106,33 @@ bool is_inside(const fs::path& file, const fs::path& folder) {
   return part != file.end();
 }
 
-/// Follows links and dots first, and only then asks whether the file lies in the folder.
-fs::path resolve(const std::string& uri, const Origin& origin, const std::string& place) {
-  const auto refuse = [&](const std::string& what) {
-    throw InputError(origin.name, place + " is " + shown(uri) + ", " + what);
-  };
-  if (uri.empty()) refuse("must not be empty");
+[[noreturn]] void refuse(const std::string& uri, const Origin& origin, const std::string& place,
+                         const std::string& what) {
+  throw InputError(origin.name, place + " is " + shown(uri) + ", " + what);
+}
+
+/// The path that a URI spells, which stays in the folder if there are no links.
+std::string relative_path(const std::string& uri, const Origin& origin, const std::string& place) {
+  if (uri.empty()) refuse(uri, origin, place, "must not be empty");
   const std::string decoded = percent_decode(uri);
   if (has_scheme(uri) || decoded.find('\0') != std::string::npos || decoded.front() == '/' ||
       decoded.front() == '\\')
-    refuse("must be a relative path or a data URI");
-  if (!origin.folder) refuse("but no file may be opened here");
+    refuse(uri, origin, place, "must be a relative path or a data URI");
   if (!is_inside((fs::path("/root") / decoded).lexically_normal(), "/root"))
-    refuse("which leaves the asset's folder");
+    refuse(uri, origin, place, "which leaves the asset's folder");
+  return decoded;
+}
+
+/// Follows links and dots first, and only then asks whether the file lies in the folder.
+fs::path resolve(const std::string& uri, const Origin& origin, const std::string& place) {
+  const std::string decoded = relative_path(uri, origin, place);
+  if (!origin.folder) refuse(uri, origin, place, "but no file may be opened here");
   std::error_code error;
   const fs::path folder = fs::canonical(origin.folder->empty() ? "." : *origin.folder, error);
-  if (error) refuse("the asset's folder cannot be read: " + error.message());
+  if (error) refuse(uri, origin, place, "the asset's folder cannot be read: " + error.message());
   const fs::path file = fs::canonical(folder / decoded, error);
-  if (error) refuse(error.message());
-  if (!is_inside(file, folder)) refuse("which leaves the asset's folder");
+  if (error) refuse(uri, origin, place, error.message());
+  if (!is_inside(file, folder)) refuse(uri, origin, place, "which leaves the asset's folder");
   return file;
 }
 
@@ -158,14 +166,19 @@ std::optional<Bytes> decode_base64(std::string_view text) {
   return bytes;
 }
 
+/// Source: RFC 2397.
 Bytes read_data_uri(const std::string& uri, const Origin& origin, const std::string& place) {
   const std::size_t comma = uri.find(',');
-  if (comma == std::string::npos || !std::string_view(uri).substr(0, comma).ends_with(";base64"))
-    throw InputError(origin.name, place + " is " + shown(uri) + ", must hold base64 data");
-  std::string_view text = std::string_view(uri).substr(comma + 1);
+  if (comma == std::string::npos) refuse(uri, origin, place, "must hold data after a comma");
+  const std::string_view text = std::string_view(uri).substr(comma + 1);
+  if (!std::string_view(uri).substr(0, comma).ends_with(";base64")) {
+    const std::string decoded = percent_decode(text);
+    const auto bytes = std::as_bytes(std::span(decoded));
+    return Bytes(bytes.begin(), bytes.end());
+  }
   const std::optional<Bytes> bytes =
       text.find('%') == text.npos ? decode_base64(text) : decode_base64(percent_decode(text));
-  if (!bytes) throw InputError(origin.name, place + " is " + shown(uri) + ", which is not base64");
+  if (!bytes) refuse(uri, origin, place, "which is not base64");
   return *bytes;
 }
 
@@ -176,6 +189,13 @@ Bytes read_file(const fs::path& file, std::uint64_t most) {
 }
 
 bool is_data_uri(std::string_view uri) { return uri.starts_with("data:"); }
+
+void check_uri(const std::string& uri, const Origin& origin, const std::string& place) {
+  if (is_data_uri(uri))
+    read_data_uri(uri, origin, place);
+  else
+    relative_path(uri, origin, place);
+}
 
 Bytes read_uri(const std::string& uri, const Origin& origin, const std::string& place,
                std::uint64_t most) {

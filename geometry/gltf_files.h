@@ -28,7 +28,12 @@ Bytes read_file(const std::filesystem::path& file, std::uint64_t most);
 
 bool is_data_uri(std::string_view uri);
 
-/// The bytes that a URI names: base64 inside it, or a regular file inside the origin's folder.
+/// Looks at a URI that is not going to be read: as read_uri, without touching the file system.
+///
+/// @throws InputError  not base64; empty, absolute, with a scheme, or out of the folder.
+void check_uri(const std::string& uri, const Origin& origin, const std::string& place);
+
+/// The bytes that a URI names: data inside it, or a regular file inside the origin's folder.
 ///
 /// @param place  JSON path of the URI for messages.
 /// @param most   bytes at most that are read; the rest of a longer file is left.

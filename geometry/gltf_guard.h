@@ -12,6 +12,7 @@ namespace parity::gltf {
 struct Container {
   std::string_view json;
   std::optional<std::span<const std::byte>> binary;  ///< BIN chunk of a GLB
+  std::size_t trailing = 0;                          ///< bytes of the file after the end of the GLB
 };
 
 /// Tells GLB from JSON by the magic number and cuts it into its chunks.

@@ -36,10 +36,12 @@ Container open_glb(std::span<const std::byte> bytes, const std::string& name) {
   const std::uint32_t length = read_uint32(bytes, 8);
   if (version != 2)
     throw InputError(name, "GLB container version is " + std::to_string(version) + ", must be 2");
-  if (length != bytes.size())
+  if (length > bytes.size() || length < 12)
     throw InputError(name, "GLB header says " + std::to_string(length) + " bytes, the file has " +
                                std::to_string(bytes.size()));
   Container container;
+  container.trailing = bytes.size() - length;
+  bytes = bytes.first(length);
   std::size_t offset = 12;
   for (int chunk = 0; offset < bytes.size(); ++chunk) {
     const std::string place =
@@ -129,7 +131,7 @@ Container open_container(std::span<const std::byte> bytes, const std::string& na
   if (is_glb(bytes)) return open_glb(bytes, name);
   std::string_view text = text_of(bytes);
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  return {text, std::nullopt};
+  return {.json = text};
 }
 
 void check_json_text(std::string_view text, const std::string& name) {

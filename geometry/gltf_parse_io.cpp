@@ -111,9 +111,7 @@ dmat4 compose(const dvec3& translation, const dquat& rotation, const dvec3& scal
 
 dmat4 local_matrix(const tinygltf::Node& from, const std::string& place, const std::string& name,
                    std::set<std::string>& notes) {
-  const bool trs = !from.translation.empty() || !from.rotation.empty() || !from.scale.empty();
   if (!from.matrix.empty()) {
-    if (trs) throw InputError(name, place + " has a matrix and translation, rotation or scale");
     dmat4 matrix;
     for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = from.matrix[std::size_t(i)];
     if (matrix[0][3] != 0 || matrix[1][3] != 0 || matrix[2][3] != 0 || matrix[3][3] != 1)

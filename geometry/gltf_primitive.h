@@ -35,6 +35,12 @@ class Budget {
 void check_primitive(const Document& document, const Primitive& primitive, const std::string& name,
                      const std::string& place);
 
+/// Checks that every index names a vertex.
+///
+/// @throws InputError  naming meshes[i].primitives[j].indices.
+void check_indices(const Document& document, const Data& data, const Primitive& primitive,
+                   const std::string& name, const std::string& place);
+
 /// What the conversion of all primitives has in common.
 struct Conversion {
   const Document& document;

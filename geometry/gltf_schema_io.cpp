@@ -18,6 +18,12 @@ std::string shown(const Json& value) {
   return text.size() > 80 ? text.substr(0, 77) + "..." : text;
 }
 
+/// A name out of the file without quotes, on one line.
+std::string printable(const std::string& name) {
+  const std::string quoted = shown(Json(name));
+  return quoted.substr(1, quoted.size() - 2);
+}
+
 std::string shown(double value) {
   if (value == std::floor(value) && std::abs(value) < 1e15) return std::to_string((long long)value);
   return std::to_string(value);
@@ -130,7 +136,11 @@ class Checker {
       case Field::Kind::reference_map:
       case Field::Kind::integer_map:
         if (!value.is_object()) fail(path, " is " + shown(value) + ", must be an object");
-        for (auto& item : value.items()) check_integer(item.value(), field, join(path, item.key()));
+        for (auto& item : value.items()) {
+          if (std::ranges::any_of(item.key(), [](unsigned char c) { return c < 32; }))
+            fail(path, " has the key " + shown(Json(item.key())) + ", must be printable");
+          check_integer(item.value(), field, join(path, item.key()));
+        }
     }
   }
 
@@ -178,6 +188,15 @@ class Checker {
   const std::string& name_;
   Json& root_;
 };
+
+void check_transforms(const Json& root, const std::string& name) {
+  if (!root.contains("nodes")) return;
+  for (std::size_t i = 0; i < root["nodes"].size(); ++i)
+    for (const char* part : {"translation", "rotation", "scale"})
+      if (root["nodes"][i].contains("matrix") && root["nodes"][i].contains(part))
+        throw InputError(name, "nodes[" + std::to_string(i) + "] has a matrix and a " + part +
+                                   ", must have one or the other");
+}
 
 void check_version(const Json& root, const std::string& name) {
   const Json& asset = root["asset"];
@@ -243,9 +262,10 @@ CheckedJson check_schema(std::string_view text, const std::string& name) {
   Checker checker(name, root);
   checker.check_root();
   check_version(root, name);
+  check_transforms(root, name);
   CheckedJson checked;
   for (const std::string& extension : checker.ignored)
-    checked.notes.push_back("extension " + extension.substr(0, 80) + " is not supported: ignored");
+    checked.notes.push_back("extension " + printable(extension) + " is not supported: ignored");
   checked.buffers = take_buffers(root);
   checked.images = take_images(root, name);
   checked.placeholder_view = add_placeholder_view(root);

@@ -10,6 +10,8 @@ namespace parity::gltf {
 namespace {
 
 constexpr std::uint64_t largest_image_file = std::uint64_t(1) << 30;
+constexpr std::uint64_t base_decoded = std::uint64_t(512) << 20;
+constexpr std::uint64_t decoded_per_byte = 128;
 
 std::string place_of(int image) { return "images[" + std::to_string(image) + "]"; }
 
@@ -71,6 +73,11 @@ class TextureConverter {
     if (is_other_format(bytes)) return number;
     scene_.images.push_back(decode_image(bytes, origin_.name + ": " + place_of(index)));
     number = int(scene_.images.size()) - 1;
+    encoded_size_ += bytes.size();
+    decoded_size_ += scene_.images.back().size() * sizeof(u8vec4);
+    if (decoded_size_ > base_decoded + decoded_per_byte * encoded_size_)
+      throw InputError(origin_.name, place_of(index) + ": the images expand to more memory than " +
+                                         "files of their size may take");
     return number;
   }
 
@@ -80,12 +87,17 @@ class TextureConverter {
   Scene& scene_;
   std::vector<int> texture_of_;
   std::vector<int> image_of_;
+  std::uint64_t encoded_size_ = 0;
+  std::uint64_t decoded_size_ = 0;
 };
 
 }  // namespace
 
 void convert_textures(const Document& document, const Data& data, const Origin& origin,
                       Scene& scene) {
+  for (std::size_t i = 0; i < document.images.size(); ++i)
+    if (document.images[i].has_uri)
+      check_uri(document.images[i].uri, origin, place_of(int(i)) + ".uri");
   TextureConverter converter(document, data, origin, scene);
   for (Material& material : scene.materials)
     for (TextureUse* use :

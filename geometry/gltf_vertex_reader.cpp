@@ -62,7 +62,12 @@ std::vector<uvec4> VertexReader::read_joints(const std::string& semantic) const 
 std::vector<vec3> VertexReader::read_target(std::size_t target, const std::string& semantic) const {
   const auto found = from_.targets[target].find(semantic);
   if (found == from_.targets[target].end()) return {};
+  spend_on_sparse(found->second);
   return conversion_.data.read<vec3>(found->second, which_);
+}
+
+void VertexReader::spend_on_sparse(int index) const {
+  if (accessor(index).sparse) conversion_.budget.spend(4 * accessor(index).sparse->count, place_);
 }
 
 void VertexReader::decode_draco_mesh() {

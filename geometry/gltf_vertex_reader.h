@@ -42,6 +42,8 @@ class VertexReader {
   }
   std::vector<std::uint32_t> stored_indices();
   void decode_draco_mesh();
+  /// Sparse elements are walked through however few vertices are selected.
+  void spend_on_sparse(int accessor) const;
 
   Conversion& conversion_;
   const Primitive& from_;
@@ -53,8 +55,10 @@ class VertexReader {
 template <typename Vector>
 std::vector<Vector> VertexReader::read(const std::string& semantic, bool force_normalized) const {
   if (!has(semantic)) return {};
-  if (!draco_ || !draco_->attributes.contains(semantic))
+  if (!draco_ || !draco_->attributes.contains(semantic)) {
+    spend_on_sparse(from_.attributes.at(semantic));
     return conversion_.data.read<Vector>(from_.attributes.at(semantic), which_, force_normalized);
+  }
   const std::vector<float>& values = draco_->attributes.at(semantic);
   constexpr std::size_t length = std::size_t(Vector::length());
   std::vector<Vector> vectors(vertex_count());

@@ -18,6 +18,9 @@ constexpr std::uint64_t largest_file = std::uint64_t(1) << 32;
 Scene load_gltf(std::span<const std::byte> bytes, const gltf::Origin& origin) {
   const gltf::Container container = gltf::open_container(bytes, origin.name);
   gltf::Document document = gltf::parse_document(container.json, origin.name);
+  if (container.trailing > 0)
+    document.notes.push_back("bytes after the end of the GLB ignored: " +
+                             std::to_string(container.trailing));
   gltf::link_nodes(document, origin.name);
   gltf::check_document(document, origin.name);
   const gltf::Data data(document, container.binary, origin);

@@ -21,8 +21,8 @@ namespace parity {
 /// PNG and JPEG. Another extension is refused by name if the file requires it, else noted and
 /// ignored.
 ///
-/// Nothing outside the file's folder is opened. Memory stays within 128 MiB + 64 times the size of
-/// the input, beside the decoded images.
+/// Nothing outside the file's folder is opened. Geometry takes at most 128 MiB + 64 times the size
+/// of the input, images at most 512 MiB + 128 times the size of their files.
 ///
 /// @throws InputError  missing, malformed or unsupported: file, JSON path, value, expectation.
 ///

@@ -143,7 +143,8 @@ std::vector<std::array<std::uint32_t, 3>> sorted_triangles(const Primitive& p) {
   std::vector<std::array<std::uint32_t, 3>> list;
   for (std::size_t i = 0; i < p.indices.size(); i += 3) {
     list.push_back({p.indices[i], p.indices[i + 1], p.indices[i + 2]});
-    std::ranges::rotate(list.back(), std::ranges::min_element(list.back()));
+    std::array<std::uint32_t, 3>& t = list.back();
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   }
   std::ranges::sort(list);
   return list;

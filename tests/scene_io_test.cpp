@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "geometry/input_error.h"
 #include "tests/gltf_builder.h"
@@ -456,6 +457,8 @@ TEST(SceneIo, RefusesWhatCannotBeMeant) {
   refuses("/asset/minVersion", "2.1");
   refuses("/nodes/0/children", {0});
   refuses("/nodes/0/matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0});
+  refuses("/nodes/0", {{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}},
+                       {"translation", {1, 0, 0}}});
   refuses("/nodes/0/translation", {1e39, 0, 0});
   refuses("/nodes/0/mesh", -1);
   refuses("/nodes/0/mesh", 0.5);
@@ -487,6 +490,51 @@ TEST(SceneIo, RefusesAFileThatExpandsBeyondMeasure) {
     primitives.push_back({{"attributes", {{"POSITION", position}}}, {"mode", 0}});
   builder.root["meshes"][0]["primitives"] = primitives;
   EXPECT_NE(refusal(builder).find("more memory"), std::string::npos);
+}
+
+TEST(SceneIo, RefusesAFileWithMoreSparseElementsThanBytes) {
+  GltfBuilder builder = plain_square();  // 1,000 accessors share one list of 60,000 replacements
+  const int zeros = builder.accessor(std::vector<float>(180000, 0.0f), "VEC3");
+  std::vector<std::uint16_t> places(60000);
+  std::iota(places.begin(), places.end(), std::uint16_t(0));
+  const int indices = builder.view(places);
+  const json sparse = {{"count", 60000},
+                       {"indices", {{"bufferView", indices}, {"componentType", 5123}}},
+                       {"values", {{"bufferView", zeros}}}};
+  for (int i = 0; i < 1000; ++i)
+    builder.root["accessors"].push_back(
+        {{"componentType", 5126}, {"count", 60000}, {"type", "VEC3"}, {"sparse", sparse}});
+  builder.root["accessors"].back()["sparse"]["values"]["bufferView"] = 2;
+  EXPECT_NE(refusal(builder).find("sparse elements"), std::string::npos);
+}
+
+TEST(SceneIo, ChecksIndicesOfMeshesThatAreNotShown) {
+  GltfBuilder builder = square_with_indices({0, 1, 7}, 4);
+  builder.root["nodes"][0].erase("mesh");
+  EXPECT_NE(refusal(builder).find("element 2 is 7"), std::string::npos);
+}
+
+TEST(SceneIo, TakesBuffersWithoutBytesThatNothingReads) {
+  GltfBuilder builder;
+  builder.root["buffers"] = {{{"byteLength", 8}}};
+  builder.root["bufferViews"] = {{{"buffer", 0}, {"byteLength", 8}}};
+  EXPECT_EQ(refusal(builder), "");
+}
+
+TEST(SceneIo, NotesBytesAfterTheGlb) {
+  std::vector<std::byte> bytes = plain_square().glb();
+  bytes.push_back(std::byte(0));
+  EXPECT_EQ(load_scene_from_memory(bytes, "long.glb").notes.size(), 1u);
+}
+
+TEST(SceneIo, ReadsPlainDataUris) {
+  const std::string text =
+      R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":3,"uri":"data:,%00%FFa"}],)"
+      R"("bufferViews":[{"buffer":0,"byteLength":3}],"accessors":[{"bufferView":0,"count":1,)"
+      R"("componentType":5121,"type":"VEC3"}],"meshes":[{"primitives":[{"mode":0,"attributes":)"
+      R"({"POSITION":0}}]}],"nodes":[{"mesh":0}]})";
+  const Scene scene = load_scene_from_memory(std::as_bytes(std::span(text)), "plain.gltf");
+  EXPECT_EQ(first_primitive(scene).positions, (std::vector{vec3(0, 255, 97)}));
 }
 
 TEST(SceneIo, RefusesWhatGoesOnAfterTheJson) {
