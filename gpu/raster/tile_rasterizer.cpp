@@ -1,11 +1,11 @@
 #include "gpu/raster/tile_rasterizer.h"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
+#include "gpu/raster/raster_target.h"
 #include "shaders.h"
 
 namespace parity::gpu {
@@ -33,17 +33,6 @@ const TileRasterizerOptions& checked(const TileRasterizerOptions& options) {
   return options;
 }
 
-RasterTarget raster_target(const TileRasterizerOptions& options) {
-  // 32766 pixels between any two corners keep all that a tile adds up within 32 bits (edge.glsl).
-  const int side = std::max(options.width, options.height);
-  return {.width = std::uint32_t(options.width),
-          .height = std::uint32_t(options.height),
-          .samples = std::uint32_t(options.samples),
-          .snapping = std::uint32_t(options.snapping),
-          .guard_band = 32766.0f / float(side),
-          .tiles_x = (std::uint32_t(options.width) + tile_side - 1) / tile_side};
-}
-
 /// Samples in the registers of one thread: few where threads are many.
 std::uint32_t held_samples(const Context& context, int samples) {
   return context.info().type == "cpu" ? 8 : std::uint32_t(samples);
@@ -66,7 +55,7 @@ std::size_t sample_count(const TileRasterizerOptions& options) {
 
 TileRasterizer::TileRasterizer(Context& context, const TileRasterizerOptions& options)
     : options_(checked(options)),
-      target_(raster_target(options)),
+      target_(raster_target(options.width, options.height, options.samples, options.snapping)),
       tile_count_(target_.tiles_x * ((std::uint32_t(options.height) + tile_side - 1) / tile_side)),
       held_(held_samples(context, options.samples)),
       count_(context, shaders::raster_tile_count_comp),
