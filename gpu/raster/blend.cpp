@@ -19,11 +19,10 @@ Buffer<vec4> upload(Context& context, const std::vector<Grid<vec4>>& layers, con
   texels.reserve(layers.size() * layers[0].size());
   for (const Grid<vec4>& layer : layers) {
     if (layer.width() != layers[0].width() || layer.height() != layers[0].height())
-      throw std::invalid_argument(std::string(who) + ": a layer is " +
-                                  std::to_string(layer.width()) + "x" +
-                                  std::to_string(layer.height()) + ", the first is " +
-                                  std::to_string(layers[0].width()) + "x" +
-                                  std::to_string(layers[0].height()));
+      throw std::invalid_argument(
+          std::string(who) + ": a layer is " + std::to_string(layer.width()) + "x" +
+          std::to_string(layer.height()) + ", the first is " + std::to_string(layers[0].width()) +
+          "x" + std::to_string(layers[0].height()));
     texels.insert(texels.end(), layer.begin(), layer.end());
   }
   return {context, texels};
@@ -66,15 +65,12 @@ Grid<vec4> hardware_blend(Context& context, const std::vector<Grid<vec4>>& layer
   const Buffer<vec4> texels = upload(context, layers, "gpu::hardware_blend");
   const std::size_t pixels = layers[0].size();
   const auto width = std::uint32_t(layers[0].width());
-  const RasterPipeline<FullScreenArgs> pipeline(context, shaders::raster_full_screen_vert,
-                                                shaders::raster_layer_frag,
-                                                {.colors = {format},
-                                                 .blends = {blend_of(mode)},
-                                                 .depth = {},
-                                                 .specializations = {}});
+  const RasterPipeline<FullScreenArgs> pipeline(
+      context, shaders::raster_full_screen_vert, shaders::raster_layer_frag,
+      {.colors = {format}, .blends = {blend_of(mode)}, .depth = {}, .specializations = {}});
   const Kernel<FullScreenArgs> fetch(context, shaders::raster_fetch_texels_comp);
-  const Image image(
-      context, {.width = layers[0].width(), .height = layers[0].height(), .format = format});
+  const Image image(context,
+                    {.width = layers[0].width(), .height = layers[0].height(), .format = format});
   const ImageSampler sampler(context,
                              {.linear_mag = false, .linear_min = false, .linear_mip = false});
   const Buffer<vec4> result(context, pixels);

@@ -17,8 +17,8 @@ namespace parity::gpu {
 /// Source: notes 1.9.
 std::vector<std::vector<ivec2>> dda_line(Context& context, std::span<const Segment> segments);
 
-/// 1 where the centre of a pixel lies in the rectangle of the given width about the segment (y down,
-/// pixel centres at 0.5), as Vulkan's rectangular lines; by edge functions.
+/// 1 where the centre of a pixel lies in the rectangle of the given width about the segment (y
+/// down, pixel centres at 0.5), as Vulkan's rectangular lines; by edge functions.
 ///
 /// @param line_width  pixels, > 0.
 /// @throws std::invalid_argument  the segment has no length, or line_width is not positive.

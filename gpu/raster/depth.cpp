@@ -72,11 +72,11 @@ DepthImage hardware_depth_test(Context& context, const TriangleList& list, Depth
   DrawArgs args = draw_args(triangles);
   args.log_scale = logarithmic ? float(-1 / std::log2(double(far) / near)) : 0;
   args.log_near = near;
-  const DepthTarget depth{.image = &depth_target, .clear = mode == DepthMode::reverse_z ? 0.f : 1.f};
+  const DepthTarget depth{.image = &depth_target,
+                          .clear = mode == DepthMode::reverse_z ? 0.f : 1.f};
   context.run([&](Commands& commands) {
-    commands.render({.colors = {cleared(element_image)}, .depth = depth}, [&](RenderPass& pass) {
-      draw_triangles(pass, pipeline, triangles, args);
-    });
+    commands.render({.colors = {cleared(element_image)}, .depth = depth},
+                    [&](RenderPass& pass) { draw_triangles(pass, pipeline, triangles, args); });
     commands.copy(element_image, elements);
     commands.copy(depth_target, depths);
   });

@@ -29,9 +29,8 @@ std::vector<float> code_thresholds() {
 SrgbEncoder::SrgbEncoder(Context& context)
     : kernel_(context, shaders::raster_encode_srgb_comp), thresholds_(context, code_thresholds()) {}
 
-void SrgbEncoder::record(Commands& commands, BufferRef<vec4> colors,
-                         BufferRef<std::uint32_t> codes, std::uint32_t count,
-                         float exposure) const {
+void SrgbEncoder::record(Commands& commands, BufferRef<vec4> colors, BufferRef<std::uint32_t> codes,
+                         std::uint32_t count, float exposure) const {
   commands.dispatch(kernel_, {count},
                     {colors, codes, thresholds_, count, float(std::exp2(double(exposure)))});
 }

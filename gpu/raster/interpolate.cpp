@@ -75,9 +75,8 @@ Grid<vec4> hardware_interpolate(Context& context, const TriangleList& list,
   args.varyings = values;
   args.perspective = varyings.perspective ? 1 : 0;
   context.run([&](Commands& commands) {
-    commands.render({.colors = {cleared(image)}, .depth = {}}, [&](RenderPass& pass) {
-      draw_triangles(pass, pipeline, triangles, args);
-    });
+    commands.render({.colors = {cleared(image)}, .depth = {}},
+                    [&](RenderPass& pass) { draw_triangles(pass, pipeline, triangles, args); });
     commands.copy(image, texels);
   });
   return grid_of(list, texels);

@@ -5,8 +5,8 @@
 
 namespace parity::gpu {
 
-/// The varying of the last triangle that covers each pixel's centre; 0 where none does. One sample a
-/// pixel, whatever the list says.
+/// The varying of the last triangle that covers each pixel's centre; 0 where none does. One sample
+/// a pixel, whatever the list says.
 ///
 /// @throws std::invalid_argument  not one value a clip position, an index out of range, a size
 ///                                outside 1..16384.

@@ -60,14 +60,13 @@ std::vector<std::uint32_t> painter_order(Context& context, std::span<const float
 
 DepthImage painter(Context& context, const TriangleList& list) {
   const TriangleBuffers triangles(context, list, "gpu::painter");
-  const std::vector<std::uint32_t> order =
-      painter_order(context, mean_depths(context, triangles));
+  const std::vector<std::uint32_t> order = painter_order(context, mean_depths(context, triangles));
   TriangleList sorted = list;
   sorted.samples = 1;
   for (std::size_t i = 0; i < order.size(); ++i) sorted.triangles[i] = list.triangles[order[i]];
   const Coverage coverage = edge_coverage(context, sorted, Snapping::mesa);
-  const Grid<vec4> clip =
-      interpolate(context, sorted, {.values = list.clip_positions, .perspective = true}, Snapping::mesa);
+  const Grid<vec4> clip = interpolate(
+      context, sorted, {.values = list.clip_positions, .perspective = true}, Snapping::mesa);
   DepthImage image{Grid<float>{list.width, list.height, 1.0f},
                    Grid<std::uint32_t>{list.width, list.height, 0u}};
   for (std::size_t i = 0; i < coverage.last.size(); ++i)

@@ -11,8 +11,8 @@ namespace parity::gpu {
 /// @throws std::invalid_argument  an index out of range, a size outside 1..16384, samples not 1, 2,
 ///                                4 or 8.
 ///
-/// Mathematics: notes 1.5, with the half-open spans [ceil(xl - 1/2), ceil(xr - 1/2)) that they leave
-/// out. Borders are decided in integers.
+/// Mathematics: notes 1.5, with the half-open spans [ceil(xl - 1/2), ceil(xr - 1/2)) that they
+/// leave out. Borders are decided in integers.
 Coverage scanline_fill(Context& context, const TriangleList& list, Snapping snapping);
 
 }  // namespace parity::gpu
