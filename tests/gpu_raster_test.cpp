@@ -3,9 +3,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 
+#include "gpu/raster/blend.h"
+#include "gpu/raster/bresenham.h"
+#include "gpu/raster/clip.h"
+#include "gpu/raster/dda_line.h"
+#include "gpu/raster/depth.h"
 #include "gpu/raster/edge_coverage.h"
+#include "gpu/raster/encode_srgb.h"
+#include "gpu/raster/interpolate.h"
+#include "gpu/raster/painter.h"
+#include "gpu/raster/polygon_fill.h"
+#include "gpu/raster/scanline_fill.h"
+#include "gpu/raster/viewport.h"
 #include "tests/gpu_context.h"
 
 namespace parity {
@@ -62,6 +74,274 @@ TEST(GpuCoverage, OfComputeIsThatOfTheFixedFunctionBitForBit) {
       const Coverage compute = gpu::edge_coverage(context, list, device_snapping(context));
       EXPECT_EQ(differences(hardware, compute), 0u) << width << " at " << samples;
     }
+}
+
+TEST(GpuCoverage, OfSpansIsThatOfEdgeFunctions) {
+  for (const int samples : {1, 2, 4, 8}) {
+    const TriangleList list = random_triangles(131, 77, samples, 500, 11);
+    const Coverage edges = gpu::edge_coverage(test_context(), list, Snapping::mesa);
+    EXPECT_EQ(differences(edges, gpu::scanline_fill(test_context(), list, Snapping::mesa)), 0u);
+    EXPECT_GT(std::accumulate(edges.count.begin(), edges.count.end(), 0u), 1000u);
+  }
+}
+
+/// A grid of n x n quads with shaken corners that covers more than the view, tilted so that part of
+/// it lies behind the eye if `tilt` is over 1.
+TriangleList shaken_grid(int side, int samples, int n, float tilt) {
+  TriangleList list{.width = side, .height = side, .samples = samples};
+  std::mt19937 random(5);
+  const auto shake = [&] { return 0.4f * (float(random() >> 8) / float(1 << 23) - 1); };
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) {
+      const float x = 2.4f * (float(i) + shake()) / float(n) - 1.2f;
+      const float y = 2.4f * (float(j) + shake()) / float(n) - 1.2f;
+      const float w = 1 + tilt * y;
+      list.clip_positions.emplace_back(4 * x, y * (1 + tilt), 0.5f * w, w);
+    }
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const auto a = std::uint32_t(j * (n + 1) + i), b = a + 1, c = a + std::uint32_t(n) + 1;
+      list.triangles.emplace_back(a, b, c + 1);
+      list.triangles.emplace_back(c + 1, c, a);
+    }
+  return list;
+}
+
+// The plane w = 1 + tilt y, seen whole where w > 0: y / w (1 + tilt) reaches -1 and 1 within the
+// grid for all three tilts, so every sample of the upper half is covered, exactly once.
+TEST(GpuCoverage, OfAWatertightMeshIsOnceEverywhere) {
+  for (const int samples : {1, 2, 4, 8})
+    for (const float tilt : {0.0f, 0.5f, 3.0f}) {
+      const TriangleList list = shaken_grid(64, samples, 24, tilt);
+      const Coverage coverage = gpu::edge_coverage(test_context(), list, Snapping::mesa);
+      const std::size_t half = coverage.count.size() / 2;
+      std::size_t wrong = 0;
+      for (std::size_t i = 0; i < coverage.count.size(); ++i)
+        wrong += coverage.count[i] > 1 || (i >= half && coverage.count[i] != 1);
+      EXPECT_EQ(wrong, 0u) << samples << " samples, tilt " << tilt;
+    }
+}
+
+TEST(GpuCoverage, RefusesWhatItCannotDraw) {
+  TriangleList list = random_triangles(16, 16, 1, 1, 1);
+  list.triangles[0].z = 99;
+  EXPECT_THROW(gpu::edge_coverage(test_context(), list, Snapping::mesa), std::invalid_argument);
+  list.triangles.clear();
+  const Coverage none = gpu::edge_coverage(test_context(), list, Snapping::mesa);
+  EXPECT_EQ(std::accumulate(none.count.begin(), none.count.end(), 0u), 0u);
+  list.samples = 3;
+  EXPECT_THROW(gpu::edge_coverage(test_context(), list, Snapping::mesa), std::invalid_argument);
+}
+
+TEST(GpuCoverage, SurvivesNumbersThatAreNone) {
+  TriangleList list = random_triangles(40, 40, 4, 30, 2);
+  const float infinity = std::numeric_limits<float>::infinity();
+  list.clip_positions[0].x = std::nanf("");
+  list.clip_positions[4].w = 0;
+  list.clip_positions[8].y = infinity;
+  list.clip_positions[12] = vec4(3e38f, -3e38f, 0, 3e38f);
+  list.clip_positions[15].w = -1;
+  list.clip_positions[18] = vec4(1e9f, 5, 0.5f, 1);
+  const Coverage coverage = gpu::edge_coverage(test_context(), list, Snapping::mesa);
+  EXPECT_LE(*std::max_element(coverage.count.begin(), coverage.count.end()), 30u);
+}
+
+TEST(GpuInterpolate, AgreesWithTheFixedFunction) {
+  TriangleList list = random_triangles(200, 100, 1, 60, 3);
+  Varyings varyings;
+  for (std::size_t i = 0; i < list.clip_positions.size(); ++i)
+    varyings.values.emplace_back(float(i % 3 == 0), float(i % 3 == 1), float(i % 3 == 2), 1);
+  for (const bool perspective : {true, false}) {
+    varyings.perspective = perspective;
+    const Snapping snapping = device_snapping(test_context());
+    const Grid<vec4> compute = gpu::interpolate(test_context(), list, varyings, snapping);
+    const Grid<vec4> hardware = gpu::hardware_interpolate(test_context(), list, varyings);
+    std::vector<float> errors;
+    for (std::size_t i = 0; i < compute.size(); ++i) {
+      const vec4 d = glm::abs(compute.values()[i] - hardware.values()[i]);
+      errors.push_back(std::max({d.x, d.y, d.z}));
+    }
+    // Snapping moves corners by 2^-9 pixel: slivers a few units wide have no bound, most have.
+    std::sort(errors.begin(), errors.end());
+    EXPECT_LT(errors[errors.size() * 9 / 10], 1e-3f);
+  }
+}
+
+TEST(GpuDepth, OfComputeAgreesWithTheFixedFunction) {
+  TriangleList list = random_triangles(200, 100, 1, 200, 4);
+  for (std::size_t i = 0; i < list.clip_positions.size(); ++i) {
+    vec4& p = list.clip_positions[i];
+    p.z = (0.2f + 0.003f * float(i / 3)) * p.w;  // parallel to the window, 0.003 apart
+  }
+  for (const DepthMode mode : {DepthMode::standard, DepthMode::reverse_z}) {
+    const Snapping snapping = device_snapping(test_context());
+    const DepthImage compute = gpu::depth_test(test_context(), list, mode, 0, 0, snapping);
+    const DepthImage hardware = gpu::hardware_depth_test(test_context(), list, mode, 0, 0);
+    EXPECT_EQ(compute.front, hardware.front);
+    for (std::size_t i = 0; i < compute.depth.size(); ++i)
+      ASSERT_NEAR(compute.depth.values()[i], hardware.depth.values()[i], 4e-7f);
+  }
+}
+
+TEST(GpuDepth, IsLogarithmicInW) {
+  const float near = 0.5f, far = 4;
+  TriangleList list = random_triangles(64, 64, 1, 20, 4);
+  for (std::size_t i = 0; i < list.clip_positions.size(); ++i) {
+    vec4& p = list.clip_positions[i];
+    p = p * ((0.6f + 0.15f * float(i / 3)) / p.w);
+  }
+  const DepthImage compute = gpu::depth_test(test_context(), list, DepthMode::logarithmic, near,
+                                             far, device_snapping(test_context()));
+  const DepthImage hardware =
+      gpu::hardware_depth_test(test_context(), list, DepthMode::logarithmic, near, far);
+  EXPECT_EQ(compute.front, hardware.front);
+  for (std::size_t i = 0; i < compute.depth.size(); ++i) {
+    const std::uint32_t front = compute.front.values()[i];
+    const float w = 0.6f + 0.15f * float(front - 1);
+    const double want =
+        front == 0 ? 1 : std::log2(double(w) / near) / std::log2(double(far) / near);
+    // log2 may be off by 2^-21 near 1; interpolation of 1/w by 4 roundings.
+    ASSERT_NEAR(compute.depth.values()[i], want, 1e-6);
+    ASSERT_NEAR(hardware.depth.values()[i], want, 1e-6);
+  }
+}
+
+TEST(GpuPainter, SortsLikeAStableSort) {
+  std::mt19937 random(9);
+  std::vector<float> keys{0.0f, -0.0f, 1.0f, -1.0f, std::numeric_limits<float>::infinity()};
+  for (int i = 0; i < 20000; ++i) keys.push_back(float(int(random() % 2001) - 1000) / 7);
+  std::vector<std::uint32_t> want(keys.size());
+  std::iota(want.begin(), want.end(), 0u);
+  std::stable_sort(want.begin(), want.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return keys[a] > keys[b]; });
+  EXPECT_EQ(gpu::painter_order(test_context(), keys), want);
+  EXPECT_TRUE(gpu::painter_order(test_context(), {}).empty());
+  keys[3] = std::nanf("");
+  EXPECT_THROW(gpu::painter_order(test_context(), keys), std::invalid_argument);
+}
+
+TEST(GpuPainter, SeesWhatADepthTestSeesOfStackedTriangles) {
+  TriangleList list = random_triangles(64, 64, 1, 40, 6);
+  for (std::size_t i = 0; i < list.clip_positions.size(); ++i) {
+    vec4& p = list.clip_positions[i];
+    p = p * ((1 + float((i / 3) * 7 % 40)) / p.w);  // 40 different distances
+    p.z = p.w - 0.5f;                               // nearer is less
+  }
+  const DepthImage painted = gpu::painter(test_context(), list);
+  EXPECT_EQ(painted.front,
+            gpu::depth_test(test_context(), list, DepthMode::standard, 0, 0, Snapping::mesa).front);
+}
+
+TEST(GpuClip, LeavesWhatIsInsideAndCutsTheRest) {
+  TriangleList list{.width = 8, .height = 8, .samples = 1};
+  list.clip_positions = {
+      {0, 0, 0.5f, 1}, {1, 0, 0.5f, 1}, {0, 1, 0.5f, 1}, {0, 0, -0.5f, 1}, {8, 0, 0.5f, 1}};
+  list.triangles = {{0, 1, 2}, {3, 1, 2}, {0, 4, 2}};
+  const std::vector<ClippedPolygon> polygons = gpu::clip(test_context(), list, 2);
+  EXPECT_EQ(polygons[0].count, 3u);
+  ASSERT_EQ(polygons[1].count, 4u);  // the near plane cuts a corner off, half way
+  for (std::uint32_t i = 0; i < 4; ++i) EXPECT_GE(polygons[1].position[i].z, 0);
+  EXPECT_EQ(polygons[2].count, 4u);  // so does x = 2 w
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const dvec3 b = polygons[2].barycentric[i];
+    EXPECT_NEAR(b.x + b.y + b.z, 1, 1e-6);
+    EXPECT_NEAR(polygons[2].position[i].x, 8 * b.y, 1e-6);
+  }
+}
+
+TEST(GpuViewport, TakesCornersOfTheViewToThoseOfTheWindow) {
+  const std::vector<vec4> clip{{-2, -2, 0, 2}, {1, 1, 1, 1}, {0, 0, 2, 4}};
+  const std::vector<vec4> window = gpu::to_window(test_context(), clip, 131, 77);
+  EXPECT_EQ(window[0], vec4(0, 0, 0, 0.5f));
+  EXPECT_EQ(window[1], vec4(131, 77, 1, 1));
+  EXPECT_EQ(window[2], vec4(65.5f, 38.5f, 0.5f, 0.25f));
+}
+
+TEST(GpuLines, StayWithinHalfAPixelInAllOctants) {
+  std::vector<Segment> segments{{{5, 5}, {5, 5}}};
+  for (int y = -9; y <= 9; ++y)
+    for (int x = -9; x <= 9; ++x) segments.push_back({{3, -2}, {3 + 2 * x, -2 + 3 * y}});
+  const auto bresenham = gpu::bresenham(test_context(), segments);
+  const auto dda = gpu::dda_line(test_context(), segments);
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    for (const std::vector<ivec2>& line : {bresenham[i], dda[i]}) {
+      const ivec2 d = segments[i].end - segments[i].begin;
+      const int steps = std::max(std::abs(d.x), std::abs(d.y));
+      ASSERT_EQ(line.size(), std::size_t(steps) + 1);
+      EXPECT_EQ(line.front(), segments[i].begin);
+      EXPECT_EQ(line.back(), segments[i].end);
+      for (int k = 0; k <= steps && steps > 0; ++k) {
+        const dvec2 ideal = dvec2(segments[i].begin) + dvec2(d) * (double(k) / steps);
+        const dvec2 off = glm::abs(dvec2(line[std::size_t(k)]) - ideal);
+        EXPECT_LE(std::max(off.x, off.y), 0.5 + 1e-5);
+      }
+    }
+  const std::vector<Segment> long_line{{{0, 0}, {70000, 1}}};
+  EXPECT_THROW(gpu::bresenham(test_context(), long_line), std::invalid_argument);
+}
+
+TEST(GpuLines, OfTheDeviceAreRectangles) {
+  const vec2 begin(3.3f, 4.6f), end(40.2f, 17.9f);
+  const Grid<std::uint8_t> hardware = gpu::hardware_line(test_context(), begin, end, 48, 24);
+  const Grid<std::uint8_t> compute = gpu::wide_line(test_context(), begin, end, 1, 48, 24);
+  EXPECT_EQ(hardware, compute);
+}
+
+TEST(GpuPolygon, FillsByEitherRule) {
+  const Polygon square{{{{2, 3}, {7, 3}, {7, 9}, {2, 9}}}};
+  const Grid<std::uint8_t> filled =
+      gpu::polygon_fill(test_context(), square, FillRule::even_odd, 12, 12);
+  EXPECT_EQ(std::accumulate(filled.begin(), filled.end(), 0), 30);
+  Polygon star{{{}}};
+  for (int i = 0; i < 5; ++i) {
+    const double angle = 2 * i * 4 * std::acos(0.0) / 5;
+    star.rings[0].emplace_back(20 + 18 * std::sin(angle), 20 - 18 * std::cos(angle));
+  }
+  const auto inside = [&](FillRule rule, int x, int y) {
+    return int(gpu::polygon_fill(test_context(), star, rule, 40, 40)(x, y));
+  };
+  EXPECT_EQ(inside(FillRule::even_odd, 20, 20), 0);
+  EXPECT_EQ(inside(FillRule::non_zero, 20, 20), 1);
+  EXPECT_EQ(inside(FillRule::even_odd, 20, 6), 1);
+  EXPECT_EQ(inside(FillRule::non_zero, 1, 1), 0);
+}
+
+TEST(GpuBlend, OfComputeIsThatOfTheBlender) {
+  std::vector<Grid<vec4>> layers(3, Grid<vec4>{5, 3});
+  std::mt19937 random(1);
+  for (Grid<vec4>& layer : layers)
+    for (vec4& texel : layer)
+      for (int c = 0; c < 4; ++c) texel[c] = float(random() >> 8) / float(1 << 24);
+  for (const BlendMode mode : {BlendMode::over, BlendMode::over_premultiplied, BlendMode::add}) {
+    const Grid<vec4> compute = gpu::blend(test_context(), layers, mode);
+    const Grid<vec4> hardware =
+        gpu::hardware_blend(test_context(), layers, mode, gpu::Format::rgba32_float);
+    for (std::size_t i = 0; i < compute.size(); ++i)
+      for (int c = 0; c < 4; ++c)  // three layers, three roundings each of values up to 4
+        EXPECT_NEAR(compute.values()[i][c], hardware.values()[i][c], 9 * 4.8e-7f);
+  }
+  EXPECT_THROW(gpu::blend(test_context(), {}, BlendMode::add), std::invalid_argument);
+}
+
+TEST(GpuSrgb, FindsEachCodeFromBothOfItsBorders) {
+  Grid<vec4> colors{256, 2};
+  const auto decoded = [](double v) {
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+  };
+  for (int code = 0; code < 256; ++code) {
+    const double low = decoded(std::max(0.0, (code - 0.4999) / 255));
+    const double high = decoded(std::min(1.0, (code + 0.4999) / 255));
+    colors(code, 0) = vec4(float(low), float(decoded(code / 255.0)), float(high), code / 255.0f);
+    colors(code, 1) = colors(code, 0) * vec4(0.25f, 0.25f, 0.25f, 1);
+  }
+  const Grid<u8vec4> plain = gpu::encode_srgb(test_context(), colors, 0);
+  const Grid<u8vec4> exposed = gpu::encode_srgb(test_context(), colors, 2);
+  for (int code = 0; code < 256; ++code) {
+    EXPECT_EQ(plain(code, 0), u8vec4(code)) << code;
+    EXPECT_EQ(exposed(code, 1), u8vec4(code)) << code;
+  }
+  const Grid<vec4> odd{1, 1, vec4(std::nanf(""), -1, 1e30f, 2)};
+  EXPECT_EQ(gpu::encode_srgb(test_context(), odd, 0)(0, 0), u8vec4(0, 0, 255, 255));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace parity::gpu {
 namespace {
 
 constexpr int greatest_side = 16384;
-constexpr std::uint32_t greatest_triangle_count = 1u << 28;  // 8 triangle + piece is 32 bits
+constexpr std::uint32_t greatest_triangle_count = 1u << 28;
 
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument("TileRasterizer: " + what);
@@ -66,13 +66,20 @@ TileRasterizer::TileRasterizer(Context& context, const TileRasterizerOptions& op
                   raster_constants(context, options, false)),
       coverage_(context, shaders::raster_tile_raster_comp,
                 raster_constants(context, options, true)),
-      prefix_sum_(context, std::size_t{options.triangle_capacity} + 1),
-      offsets_(context, std::size_t{options.triangle_capacity} + 1),
+      pieces_(context, target_, std::uint32_t(options.depth), options.triangle_capacity),
       pair_count_(context, 1),
       begins_(context, std::size_t{tile_count_} + 1),
       elements_(context, sample_count(options)),
       depths_(context, sample_count(options)) {
+  resize_pieces(context);
   resize_pairs(context, 2 * options.triangle_capacity + tile_count_);
+}
+
+void TileRasterizer::resize_pieces(Context& context) {
+  const std::size_t count = std::size_t{pieces_.capacity()} + 1;
+  offsets_ = {};
+  offsets_ = Buffer<std::uint32_t>(context, count);
+  prefix_sum_.emplace(context, count);
 }
 
 void TileRasterizer::resize_pairs(Context& context, std::uint32_t pairs) {
@@ -88,24 +95,22 @@ void TileRasterizer::resize_pairs(Context& context, std::uint32_t pairs) {
 }
 
 void TileRasterizer::record_lists(Commands& commands, const TriangleSource& source) {
-  if (source.triangle_count > options_.triangle_capacity || source.first_element < 1)
-    refuse("triangle_count is " + std::to_string(source.triangle_count) + ", first_element is " +
-           std::to_string(source.first_element) + ", must be at most " +
-           std::to_string(options_.triangle_capacity) + " and at least 1");
-  const std::uint32_t triangles = source.triangle_count;
-  commands.dispatch(count_, {triangles + 1}, {source, target_, offsets_});
-  prefix_sum_.record(commands, offsets_, triangles + 1);
-  commands.copy(offsets_, pair_count_, triangles, 0, 1);
-  if (triangles > 0)
-    commands.dispatch(emit_, {triangles},
-                      {source, target_, offsets_, keys_, values_, pair_capacity_, 0});
+  pieces_.record(commands, source);
+  const std::uint32_t pieces = pieces_.capacity();
+  commands.dispatch(count_, {pieces + 1},
+                    {target_, pieces_.count(), pieces_.pieces(), offsets_, pieces, 0});
+  prefix_sum_->record(commands, offsets_, pieces + 1);
+  commands.copy(offsets_, pair_count_, pieces, 0, 1);
+  commands.dispatch(emit_, {pieces},
+                    {target_, pieces_.count(), pieces_.pieces(), offsets_, keys_, values_, pieces,
+                     pair_capacity_});
   sort_->record(commands, pair_count_, keys_, values_,
                 std::uint32_t(std::bit_width(tile_count_ - 1)));
   commands.dispatch(range_, {tile_count_ + 1},
                     {pair_count_, keys_, begins_, pair_capacity_, tile_count_});
   commands.dispatch(setup_, {pair_capacity_},
-                    {source, target_, pair_count_, keys_, values_, tile_triangles_, pair_capacity_,
-                     std::uint32_t(options_.depth)});
+                    {pair_count_, keys_, values_, pieces_.pieces(), tile_triangles_, pair_capacity_,
+                     target_.tiles_x});
 }
 
 void TileRasterizer::record(Commands& commands, const TriangleSource& source) {
@@ -142,6 +147,10 @@ void TileRasterizer::raster(Commands& commands, const Kernel<TileRasterArgs>& ke
 }
 
 bool TileRasterizer::fit(Context& context) {
+  if (!pieces_.fit(context)) {
+    resize_pieces(context);
+    return false;
+  }
   const std::uint32_t pairs = pair_count_.read()[0];
   if (pairs <= pair_capacity_) return true;
   resize_pairs(context, pairs + pairs / 4);

@@ -11,6 +11,7 @@
 #include "gpu/core/kernel.h"
 #include "gpu/raster/prefix_sum.h"
 #include "gpu/raster/radix_sort.h"
+#include "gpu/raster/triangle_pieces.h"
 #include "shaders/raster/layout.h"
 
 namespace parity::gpu {
@@ -76,6 +77,7 @@ class TileRasterizer {
   std::uint32_t tile_count() const { return tile_count_; }
 
  private:
+  void resize_pieces(Context& context);
   void resize_pairs(Context& context, std::uint32_t pairs);
   void raster(Commands& commands, const Kernel<TileRasterArgs>& kernel,
               BufferRef<std::uint32_t> counts);
@@ -92,10 +94,11 @@ class TileRasterizer {
   Kernel<TileRangeArgs> range_;
   Kernel<TileRasterArgs> visibility_;
   Kernel<TileRasterArgs> coverage_;
-  PrefixSum prefix_sum_;
+  TrianglePieces pieces_;
+  std::optional<PrefixSum> prefix_sum_;
   std::optional<RadixSort> sort_;
 
-  Buffer<std::uint32_t> offsets_;
+  Buffer<std::uint32_t> offsets_;  ///< of the pairs of a piece
   Buffer<std::uint32_t> pair_count_;
   Buffer<std::uint32_t> keys_, values_;
   Buffer<TileTriangle> tile_triangles_;

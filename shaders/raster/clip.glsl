@@ -44,6 +44,7 @@ bool is_out_of_view(vec4 a, vec4 b, vec4 c) {
 ClippedRecord whole_triangle(vec4 a, vec4 b, vec4 c) {
   ClippedRecord polygon;
   polygon.count = 3u;
+  for (int i = 3; i < 10; ++i) polygon.position[i] = a;
   polygon.position[0] = a;
   polygon.position[1] = b;
   polygon.position[2] = c;
@@ -90,13 +91,17 @@ ClippedRecord clip_by_plane(ClippedRecord polygon, uint plane, float guard_band)
   return kept;
 }
 
+/// Whether there is nothing to clip.
+bool is_whole(vec4 a, vec4 b, vec4 c, float guard_band) {
+  return is_inside_clip_volume(a, guard_band) && is_inside_clip_volume(b, guard_band) &&
+         is_inside_clip_volume(c, guard_band);
+}
+
 /// count is 0, or 3 to 10.
 ClippedRecord clip_triangle(vec4 a, vec4 b, vec4 c, float guard_band) {
   ClippedRecord polygon = whole_triangle(a, b, c);
-  const bool whole = is_inside_clip_volume(a, guard_band) && is_inside_clip_volume(b, guard_band) &&
-                     is_inside_clip_volume(c, guard_band);
   // A loop of no turns, not a branch: software devices walk both sides of branches.
-  const uint planes = whole ? 0u : clip_plane_count;
+  const uint planes = is_whole(a, b, c, guard_band) ? 0u : clip_plane_count;
   for (uint plane = 0u; plane < planes; ++plane)
     polygon = clip_by_plane(polygon, plane, guard_band);
   if (polygon.count < 3u) polygon.count = 0u;

@@ -7,17 +7,8 @@
 #define PARITY_RASTER_EDGE_GLSL
 
 #include "raster/layout.h"
-#include "raster/clip.glsl"
 #include "raster/viewport.glsl"
 #include "raster/wide.glsl"
-
-/// Corners turned so that the area is positive (clockwise on the screen).
-struct FixedTriangle {
-  ivec2 corner[3];
-  vec3 depth;      // z/w of the corners
-  vec3 inverse_w;  // 1/w of the corners
-  uint usable;     // 0: culled, of no area, or no such piece
-};
 
 /// E(p) of the edge from a to b: positive on the inner side. Erratum: notes 1.4 add b_y - a_y for a
 /// step in x; the increment is -(b_y - a_y).
@@ -43,44 +34,28 @@ bool is_culled(bool clockwise, uint flags) {
   return (flags & (front ? triangle_cull_front : triangle_cull_back)) != 0u;
 }
 
-/// Three corners in clip space, set up for a target.
-FixedTriangle fixed_triangle(vec4 a, vec4 b, vec4 c, uint flags, RasterTarget target) {
+/// Three corners in clip space, set up for a target; turned so that the area is positive.
+TrianglePiece triangle_piece(vec4 a, vec4 b, vec4 c, uint flags, uint element, RasterTarget target,
+                             uint depth_mode) {
   const vec2 size = vec2(target.width, target.height);
-  FixedTriangle t;
-  t.corner[0] = snap(a, size, target.samples, target.snapping);
-  t.corner[1] = snap(b, size, target.samples, target.snapping);
-  t.corner[2] = snap(c, size, target.samples, target.snapping);
-  precise vec3 inverse_w = vec3(1.0) / vec3(a.w, b.w, c.w);
-  precise vec3 depth = vec3(a.z, b.z, c.z) / vec3(a.w, b.w, c.w);
-  t.inverse_w = inverse_w;
-  t.depth = depth;
-  const int area = wide_sign(edge_function(t.corner[0], t.corner[1], t.corner[2]));
+  TrianglePiece piece;
+  piece.corner[0] = snap(a, size, target.samples, target.snapping);
+  piece.corner[1] = snap(b, size, target.samples, target.snapping);
+  piece.corner[2] = snap(c, size, target.samples, target.snapping);
+  const vec3 w = vec3(a.w, b.w, c.w);
+  precise vec3 depth = (depth_mode == 2u ? vec3(1.0) : vec3(a.z, b.z, c.z)) / w;
+  piece.depth = depth;
+  const int area = wide_sign(edge_function(piece.corner[0], piece.corner[1], piece.corner[2]));
   if (area < 0) {
-    const ivec2 corner = t.corner[1];
-    t.corner[1] = t.corner[2];
-    t.corner[2] = corner;
-    t.depth = t.depth.xzy;
-    t.inverse_w = t.inverse_w.xzy;
+    const ivec2 corner = piece.corner[1];
+    piece.corner[1] = piece.corner[2];
+    piece.corner[2] = corner;
+    piece.depth = piece.depth.xzy;
   }
-  t.usable = area != 0 && !is_culled(area > 0, flags) ? 1u : 0u;
-  return t;
-}
-
-/// Piece k of what clipping leaves of a triangle (corners 0, k + 1, k + 2 of the polygon).
-FixedTriangle fixed_piece(ClippedRecord polygon, uint piece, uint flags, RasterTarget target) {
-  return fixed_triangle(polygon.position[0], polygon.position[piece + 1u],
-                        polygon.position[piece + 2u], flags, target);
-}
-
-/// Pieces of a triangle of the source; their polygon is left in `polygon`.
-uint load_pieces(TriangleSource source, RasterTarget target, uint triangle,
-                 out ClippedRecord polygon) {
-  const uvec3 corners = source.triangles.at[triangle];
-  const vec4 a = source.clip_positions.at[corners.x];
-  const vec4 b = source.clip_positions.at[corners.y];
-  const vec4 c = source.clip_positions.at[corners.z];
-  polygon = clip_triangle(a, b, c, target.guard_band);
-  return is_out_of_view(a, b, c) || polygon.count == 0u ? 0u : polygon.count - 2u;
+  piece.element = element;
+  if ((flags & triangle_unseen) != 0u) piece.element |= element_unseen;
+  if (area == 0 || is_culled(area > 0, flags)) piece.element = 0u;
+  return piece;
 }
 
 #endif

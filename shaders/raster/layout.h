@@ -52,31 +52,58 @@ struct TileTriangle {
 };
 REF_TYPE(TileTriangle, 4)
 
-struct TileCountArgs {
+/// A triangle, or a piece of one that was clipped, in fixed point (raster/edge.glsl): clockwise on
+/// the screen. element is 0 where nothing is to be drawn.
+struct TrianglePiece {
+  ivec2 corner[3];
+  vec3 depth;  ///< z/w of the corners; 1/w for logarithmic depth
+  uint element;
+};
+REF_TYPE(TrianglePiece, 4)
+
+struct PieceCountArgs {
   TriangleSource source;
   RasterTarget target;
-  REF(uint) counts;
+  REF(uint) counts;  ///< triangle_count + 1
 };
 
-struct TileEmitArgs {
+struct PieceSetupArgs {
   TriangleSource source;
   RasterTarget target;
   REF(uint) offsets;  ///< triangle_count + 1
-  REF(uint) keys;     ///< tile
-  REF(uint) values;   ///< 8 triangle + piece
+  REF(TrianglePiece) pieces;
+  uint capacity;
+  uint depth_mode;
+};
+
+struct TileCountArgs {
+  RasterTarget target;
+  REF(uint) piece_count;
+  REF(TrianglePiece) pieces;
+  REF(uint) counts;  ///< capacity + 1
   uint capacity;
   uint padding;
 };
 
-struct TileSetupArgs {
-  TriangleSource source;
+struct TileEmitArgs {
   RasterTarget target;
+  REF(uint) piece_count;
+  REF(TrianglePiece) pieces;
+  REF(uint) offsets;
+  REF(uint) keys;    ///< tile
+  REF(uint) values;  ///< piece
+  uint capacity;
+  uint pair_capacity;
+};
+
+struct TileSetupArgs {
   REF(uint) pair_count;
   REF(uint) keys;
   REF(uint) values;
+  REF(TrianglePiece) pieces;
   REF(TileTriangle) triangles;
   uint capacity;
-  uint depth_mode;
+  uint tiles_x;
 };
 
 struct TileRangeArgs {
@@ -166,12 +193,12 @@ struct ViewportArgs {
 };
 
 struct ScanlineArgs {
-  TriangleSource source;
   RasterTarget target;
+  REF(TrianglePiece) pieces;
   REF(uint) counts;
   REF(uint) elements;
-  uint first_triangle;
-  uint last_triangle;
+  uint first_piece;
+  uint last_piece;
 };
 
 struct InterpolateArgs {

@@ -23,10 +23,10 @@ int crossing(ivec2 a, ivec2 b, int y, int sample_x) {
 }
 
 /// Columns [x, y) of a row.
-ivec2 span(FixedTriangle t, int y, int sample_x) {
+ivec2 span(TrianglePiece t, int y, int sample_x) {
   const int top = min(min(t.corner[0].y, t.corner[1].y), t.corner[2].y);
   const int bottom = max(max(t.corner[0].y, t.corner[1].y), t.corner[2].y);
-  if (t.usable == 0u || y < top || y >= bottom) return ivec2(0);
+  if (t.element == 0u || y < top || y >= bottom) return ivec2(0);
   ivec2 columns = ivec2(0, int(args.target.width));
   for (int i = 0; i < 3; ++i) {
     const ivec2 a = t.corner[i], b = t.corner[i < 2 ? i + 1 : 0];
@@ -45,18 +45,13 @@ void main() {
   const uint row = gl_GlobalInvocationID.x / samples, s = gl_GlobalInvocationID.x % samples;
   if (row >= args.target.height) return;
   const ivec2 place = sample_place(samples, s) * 16;
-  for (uint triangle = args.first_triangle; triangle < args.last_triangle; ++triangle) {
-    ClippedRecord polygon;
-    const uint pieces = load_pieces(args.source, args.target, triangle, polygon);
-    for (uint piece = 0u; piece < pieces; ++piece) {
-      const FixedTriangle t =
-          fixed_piece(polygon, piece, args.source.flags.at[triangle], args.target);
-      const ivec2 columns = span(t, int(row) * subpixel_units + place.y, place.x);
-      for (int x = columns.x; x < columns.y; ++x) {
-        const uint at = (row * args.target.width + uint(x)) * samples + s;
-        args.counts.at[at] += 1u;
-        args.elements.at[at] = args.source.first_element + triangle;
-      }
+  for (uint i = args.first_piece; i < args.last_piece; ++i) {
+    const TrianglePiece t = args.pieces.at[i];
+    const ivec2 columns = span(t, int(row) * subpixel_units + place.y, place.x);
+    for (int x = columns.x; x < columns.y; ++x) {
+      const uint at = (row * args.target.width + uint(x)) * samples + s;
+      args.counts.at[at] += 1u;
+      args.elements.at[at] = t.element;
     }
   }
 }

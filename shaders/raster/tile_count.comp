@@ -1,12 +1,12 @@
 #version 460
 #include "raster/tile_bins.glsl"
 
-// Counts the tiles of a triangle, piece by piece; one thread a triangle, and one more that ends the
+// Counts the tiles of a piece; one thread a piece that there is room for, and one more that ends the
 // prefix sum. Source: notes 1.5.
 layout(local_size_x = 64) in;
 layout(scalar, push_constant) uniform Push { TileCountArgs args; };
 
-uint count_tiles(FixedTriangle t) {
+uint count_tiles(TrianglePiece t) {
   const TileBox box = tile_box(t, args.target);
   uint count = 0u;
   for (int y = box.first.y; y <= box.last.y; ++y)
@@ -16,15 +16,9 @@ uint count_tiles(FixedTriangle t) {
 }
 
 void main() {
-  const uint triangle = gl_GlobalInvocationID.x;
-  if (triangle > args.source.triangle_count) return;
+  const uint piece = gl_GlobalInvocationID.x;
+  if (piece > args.capacity) return;
   uint count = 0u;
-  if (triangle < args.source.triangle_count) {
-    ClippedRecord polygon;
-    const uint pieces = load_pieces(args.source, args.target, triangle, polygon);
-    const uint flags = args.source.flags.at[triangle];
-    for (uint piece = 0u; piece < pieces; ++piece)
-      count += count_tiles(fixed_piece(polygon, piece, flags, args.target));
-  }
-  args.counts.at[triangle] = count;
+  if (piece < min(args.piece_count.at[0], args.capacity)) count = count_tiles(args.pieces.at[piece]);
+  args.counts.at[piece] = count;
 }

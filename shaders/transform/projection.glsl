@@ -18,7 +18,7 @@ vec2 perspective_depth(float near, float far, uint mode) {
 
 /// Erratum: notes 2.6 squeeze with w' = +z; it is -z. Their full matrix has depth -1 to 1.
 mat4 perspective(ViewVolumeRecord v, uint mode) {
-  precise vec2 size = vec2(v.right - v.left, v.bottom - v.top);
+  precise vec2 size = vec2(v.right - v.left, v.top - v.bottom);
   precise vec2 scale = 2.0 * v.near / vec2(size.x, -size.y);
   precise vec2 shift = vec2(v.right + v.left, v.bottom + v.top) / vec2(size.x, -size.y);
   const vec2 depth = perspective_depth(v.near, v.far, mode);
@@ -27,7 +27,7 @@ mat4 perspective(ViewVolumeRecord v, uint mode) {
 }
 
 mat4 orthographic(ViewVolumeRecord v, uint mode) {
-  precise vec2 size = vec2(v.right - v.left, v.bottom - v.top);
+  precise vec2 size = vec2(v.right - v.left, v.top - v.bottom);
   precise vec2 scale = 2.0 / vec2(size.x, -size.y);
   precise vec2 shift = vec2(v.right + v.left, v.bottom + v.top) / vec2(-size.x, size.y);
   precise vec2 depth = (mode == projection_reverse_z ? vec2(1.0, v.far) : vec2(-1.0, -v.near)) /
