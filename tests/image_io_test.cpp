@@ -1,10 +1,13 @@
 #include "geometry/image_io.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <bit>
 #include <cmath>
+#include <csignal>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <numbers>
@@ -95,6 +98,103 @@ TEST(ImageIo, EveryByteSurvivesAPng) {
   EXPECT_EQ(decode_image(read_file(folder / "b.png", megabyte), "b.png"), texels);
 }
 
+void append_big_endian(std::string& bytes, std::uint32_t value) {
+  for (int shift = 24; shift >= 0; shift -= 8) bytes += char(value >> shift);
+}
+
+std::uint32_t crc32(const std::string& bytes) {
+  std::uint32_t crc = 0xffffffffu;
+  for (unsigned char byte : bytes) {
+    crc ^= byte;
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (crc & 1 ? 0xedb88320u : 0);
+  }
+  return ~crc;
+}
+
+std::string png_chunk(const std::string& type, const std::string& data) {
+  std::string chunk;
+  append_big_endian(chunk, std::uint32_t(data.size()));
+  chunk += type + data;
+  append_big_endian(chunk, crc32(type + data));
+  return chunk;
+}
+
+/// A zlib stream that holds the bytes as they are.
+std::string stored(const std::string& bytes) {
+  std::uint32_t a = 1, b = 0;
+  for (unsigned char byte : bytes) {
+    a = (a + byte) % 65521;
+    b = (b + a) % 65521;
+  }
+  const auto size = std::uint16_t(bytes.size());
+  std::string stream = "\x78\x01\x01";
+  for (std::uint32_t half : {std::uint32_t(size), std::uint32_t(std::uint16_t(~size))})
+    stream += {char(half), char(half >> 8)};
+  stream += bytes;
+  append_big_endian(stream, b << 16 | a);
+  return stream;
+}
+
+/// A PNG of one row of `width` texels.
+std::string png_row(int width, int bit_depth, int color_type, const std::string& row,
+                    const std::string& chunks_before) {
+  std::string header;
+  append_big_endian(header, std::uint32_t(width));
+  append_big_endian(header, 1);
+  header += {char(bit_depth), char(color_type), 0, 0, 0};
+  return "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header) + chunks_before +
+         png_chunk("IDAT", stored(std::string(1, '\0') + row)) + png_chunk("IEND", "");
+}
+
+TEST(ImageIo, PngKeepsSixteenBits) {
+  const std::string png =
+      png_row(2, 16, 2, std::string("\x12\x34\xff\xff\0\0\x80\0\0\1\0\xff", 12), "");
+  const Grid<vec4> linear = decode_linear_image(as_bytes(png), "a.png");
+  EXPECT_EQ(linear(0, 0), vec4(float(linear_from_srgb(0x1234 / 65535.0)), 1.0f, 0.0f, 1.0f));
+  EXPECT_EQ(linear(1, 0).x, float(linear_from_srgb(0x8000 / 65535.0)));
+  EXPECT_EQ(linear(1, 0).y, float(linear_from_srgb(1 / 65535.0)));
+  // 0x1234 = 4660: 4660 / 257 = 18.13; 0x8000: 127.502; 0xff: 0.992
+  const Grid<u8vec4> texels = decode_image(as_bytes(png), "a.png");
+  EXPECT_EQ(texels(0, 0), u8vec4(18, 255, 0, 255));
+  EXPECT_EQ(texels(1, 0), u8vec4(128, 0, 1, 255));
+}
+
+TEST(ImageIo, PngOfEveryColorTypeBecomesRgba) {
+  const std::string palette =
+      png_chunk("PLTE", std::string("\1\2\3\4\5\6", 6)) + png_chunk("tRNS", std::string("\x80", 1));
+  const Grid<u8vec4> indexed =
+      decode_image(as_bytes(png_row(2, 2, 3, std::string("\x10", 1), palette)), "a.png");
+  EXPECT_EQ(indexed(0, 0), u8vec4(1, 2, 3, 0x80));
+  EXPECT_EQ(indexed(1, 0), u8vec4(4, 5, 6, 255));
+  const Grid<u8vec4> grey =
+      decode_image(as_bytes(png_row(3, 1, 0, std::string("\x40", 1), "")), "a.png");
+  EXPECT_EQ(grey(0, 0), u8vec4(0, 0, 0, 255));
+  EXPECT_EQ(grey(1, 0), u8vec4(255));
+  const Grid<u8vec4> with_alpha = decode_image(as_bytes(png_row(1, 8, 4, "\x30\x60", "")), "a.png");
+  EXPECT_EQ(with_alpha(0, 0), u8vec4(0x30, 0x30, 0x30, 0x60));
+}
+
+TEST(ImageIo, RefusesPicturesThatTheirFileCannotHold) {
+  std::string header;
+  append_big_endian(header, 16384);
+  append_big_endian(header, 16384);
+  header += {8, 6, 0, 0, 0};
+  const std::string png = "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header) +
+                          png_chunk("IDAT", stored("")) + png_chunk("IEND", "");
+  const auto refusal_of = [](const std::string& bytes) -> std::string {
+    try {
+      decode_linear_image(as_bytes(bytes), "a");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_NE(refusal_of(png).find("can hold"), std::string::npos);
+  EXPECT_NE(refusal_of("PF\n16384 16384\n-1\n").find("can hold"), std::string::npos);
+  EXPECT_NE(refusal_of("Pf\n16385 1\n-1\n" + std::string(65540, 'a')).find("16385x1"),
+            std::string::npos);
+}
+
 TEST(ImageIo, PfmKeepsEveryBitOfColor) {
   for (const auto& [width, height] : {std::pair(1, 1), std::pair(131, 7)}) {
     Grid<vec4> image = sample_picture(width, height);
@@ -144,6 +244,26 @@ TEST(ImageIo, ExrCarriesTextAndLayers) {
   EXPECT_EQ(load_image(folder / "a.exr"), Grid<vec4>(3, 2, vec4(0.5f)));
 }
 
+TEST(ImageIo, ExrPlacesItsDataInItsDisplayWindow) {
+  const TemporaryFolder folder;
+  const Grid<vec4> data = sample_picture(5, 4);
+  save_image(folder / "a.exr", data, {});
+  std::vector<std::byte> bytes = read_file(folder / "a.exr", megabyte);
+  // The display window (two corners of two whole numbers) now goes from (2, -1) to (8, 1).
+  const std::string key("displayWindow\0box2i\0\x10\0\0\0", 24);
+  const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  ASSERT_NE(text.find(key), std::string::npos);
+  const std::int32_t corners[] = {2, -1, 8, 1};
+  std::memcpy(bytes.data() + text.find(key) + key.size(), corners, sizeof corners);
+  const Grid<vec4> whole = decode_linear_image(read_file(folder / "a.exr", megabyte), "a.exr");
+  const Grid<vec4> placed = decode_linear_image(bytes, "b.exr");
+  ASSERT_EQ(placed.width(), 7);
+  ASSERT_EQ(placed.height(), 3);
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 7; ++x)
+      EXPECT_EQ(placed(x, y), x < 3 && y > 0 ? whole(x + 2, y - 1) : vec4(0.0f)) << x << " " << y;
+}
+
 TEST(ImageIo, HdrKeepsEightBitsOfTheLargestComponent) {
   for (int width : {1, 7, 8, 131, 400}) {
     const Grid<vec4> image = sample_picture(width, 5);
@@ -169,6 +289,11 @@ TEST(ImageIo, HdrReadsExposureOrientationAndOldRuns) {
   const Grid<vec4> run = decode_linear_image(
       as_bytes(head + "-Y 1 +X 4\n" + texel(128, 64, 0, 129) + texel(1, 1, 1, 3)), "run");
   EXPECT_EQ(run, Grid<vec4>(4, 1, vec4(0.5f, 0.25f, 0.0f, 1.0f)));
+  const Grid<vec4> long_run =
+      decode_linear_image(as_bytes(head + "-Y 1 +X 600\n" + texel(128, 64, 0, 129) +
+                                   texel(1, 1, 1, 600 - 1 - 512) + texel(1, 1, 1, 2)),
+                          "long run");
+  EXPECT_EQ(long_run, Grid<vec4>(600, 1, vec4(0.5f, 0.25f, 0.0f, 1.0f)));
   const Grid<vec4> turned = decode_linear_image(
       as_bytes(head + "+Y 2 -X 1\n" + texel(128, 0, 0, 129) + texel(0, 128, 0, 129)), "turned");
   EXPECT_EQ(turned(0, 1), vec4(0.5f, 0.0f, 0.0f, 1.0f));
@@ -193,6 +318,21 @@ TEST(AtomicFile, AFailureLeavesNothingBehind) {
   write_file_atomically(folder / "a", "two");
   EXPECT_EQ(read_file(folder / "a", 3).size(), 3u);
   EXPECT_EQ(folder.file_count(), 2u);
+}
+
+TEST(AtomicFile, AWriteThatBreaksOffLeavesWhatWasThere) {
+  const TemporaryFolder folder;
+  write_file_atomically(folder / "a", "before");
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit tight{16, before.rlim_max};
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);  // a write past the limit fails instead
+  ::setrlimit(RLIMIT_FSIZE, &tight);
+  EXPECT_THROW(write_file_atomically(folder / "a", std::string(1000, 'x')), OutputError);
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(read_file(folder / "a", 100).size(), 6u);
+  EXPECT_EQ(folder.file_count(), 1u);
 }
 
 TEST(AtomicFile, ReadsNoFolderNoDeviceAndNotTooMuch) {

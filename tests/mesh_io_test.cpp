@@ -247,6 +247,13 @@ TEST(Off, ReadsColoursNormalsAndComments) {
   EXPECT_EQ(decode("OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2", "a.off").corners, (Corners{0, 1, 2}));
 }
 
+TEST(Off, LeavesOutShortFacesWithANote) {
+  const Mesh mesh = decode("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n3 0 1 2\n", "a.off");
+  EXPECT_EQ(mesh.face_begin, (Corners{0, 3}));
+  EXPECT_EQ(mesh.corners, (Corners{0, 1, 2}));
+  EXPECT_EQ(mesh.notes.size(), 1u);
+}
+
 TEST(Off, Refuses) {
   const std::string three = "0 0 0\n1 0 0\n0 1 0\n";
   expect_refused("OFF\n3 1 0\n" + three + "3 0 1 3\n", "a.off", ":6");

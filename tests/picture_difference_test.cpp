@@ -29,12 +29,13 @@ TEST(PictureDifference, FollowsItsDefinitions) {
   Grid<vec4> a{4, 2}, b{4, 2};
   b(3, 1).y = -0.5f;
   b(1, 0).z = 0.25f;
+  b(2, 1).x = 0.5f;
   b(0, 0).w = 9.0f;  // alpha does not count
   const PictureDifference d = difference(a, b);
-  EXPECT_EQ(d.mse, (0.25 + 0.0625) / 24.0);
-  EXPECT_DOUBLE_EQ(d.psnr, 10.0 * std::log10(24.0 / 0.3125));
+  EXPECT_EQ(d.mse, (0.25 + 0.25 + 0.0625) / 24.0);
+  EXPECT_DOUBLE_EQ(d.psnr, 10.0 * std::log10(24.0 / 0.5625));
   EXPECT_EQ(d.maximum, 0.5);
-  EXPECT_EQ(d.maximum_x, 3);
+  EXPECT_EQ(d.maximum_x, 2);
   EXPECT_EQ(d.maximum_y, 1);
 }
 
