@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
   app.footer(exit_codes);
   int exit_code = 0;
   parity::tools::add_devices_verb(app, exit_code);
+  parity::tools::add_render_verb(app, exit_code);
   parity::tools::add_list_verb(app, exit_code);
   parity::tools::add_check_verb(app, exit_code);
   parity::tools::add_diff_verb(app, exit_code);

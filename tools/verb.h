@@ -9,6 +9,7 @@
 namespace parity::tools {
 
 void add_devices_verb(CLI::App& app, int& exit_code);
+void add_render_verb(CLI::App& app, int& exit_code);
 void add_list_verb(CLI::App& app, int& exit_code);
 void add_check_verb(CLI::App& app, int& exit_code);
 void add_diff_verb(CLI::App& app, int& exit_code);

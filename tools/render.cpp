@@ -1,0 +1,281 @@
+#include <omp.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cpu_reference/raster/renderer.h"
+#include "cpu_reference/raster/srgb.h"
+#include "geometry/atomic_file.h"
+#include "geometry/color.h"
+#include "geometry/frame.h"
+#include "geometry/image_io.h"
+#include "geometry/scene_io.h"
+#include "gpu/core/context.h"
+#include "gpu/raster/encode_srgb.h"
+#include "gpu/raster/renderer.h"
+#include "tools/progress.h"
+#include "tools/verb.h"
+
+namespace parity::tools {
+namespace {
+
+struct RenderArguments {
+  std::string input;
+  std::string output;
+  std::string size = "1280x720";
+  std::string camera;
+  std::string backend = "gpu";
+  std::string device;
+  std::string background = "#2b2f36";
+  std::string depth = "reverse";
+  std::string metrics;
+  double exposure = 0;
+  int msaa = 4;
+  int threads = 0;
+  bool dry_run = false;
+  bool quiet = false;
+  bool verbose = false;
+};
+
+double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::invalid_argument bad_option(const char* option, const std::string& value,
+                                 const char* expected) {
+  return std::invalid_argument(std::string("--") + option + " is '" + value + "', must be " +
+                               expected);
+}
+
+ivec2 parse_size(const std::string& text) {
+  int width = 0;
+  int height = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2)
+    throw bad_option("size", text, "WIDTHxHEIGHT, for example 1920x1080");
+  if (width < 1 || height < 1 || width > 16384 || height > 16384)
+    throw bad_option("size", text, "from 1x1 to 16384x16384");
+  return {width, height};
+}
+
+/// "#rrggbb" or "#rrggbbaa" in sRGB, "r,g,b" or "r,g,b,a" in linear light, or "transparent".
+vec4 parse_background(const std::string& text) {
+  const char* expected = "'transparent', '#rrggbb', '#rrggbbaa' (sRGB) or 'r,g,b[,a]' (linear)";
+  if (text == "transparent") return vec4(0.0f);
+  if (!text.empty() && text[0] == '#') {
+    if ((text.size() != 7 && text.size() != 9) ||
+        text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
+      throw bad_option("background", text, expected);
+    vec4 color{1.0f};
+    for (std::size_t i = 0; 2 * i + 1 < text.size(); ++i) {
+      const float code = float(std::stoi(text.substr(2 * i + 1, 2), nullptr, 16)) / 255.0f;
+      color[int(i)] = i < 3 ? linear_from_srgb(code) : code;
+    }
+    return color;
+  }
+  vec4 color{1.0f};
+  char rest = 0;
+  const int count =
+      std::sscanf(text.c_str(), "%f,%f,%f,%f%c", &color.x, &color.y, &color.z, &color.w, &rest);
+  const bool finite = std::isfinite(color.x) && std::isfinite(color.y) && std::isfinite(color.z);
+  if (count < 3 || count > 4 || !finite || !(color.w >= 0 && color.w <= 1))
+    throw bad_option("background", text, expected);
+  return color;
+}
+
+DepthMode parse_depth(const std::string& text) {
+  if (text == "standard") return DepthMode::standard;
+  if (text == "logarithmic") return DepthMode::logarithmic;
+  return DepthMode::reverse_z;
+}
+
+/// A colour over nothing is stored premultiplied; files hold straight colour.
+Grid<vec4> straight_alpha(Grid<vec4> color) {
+  for (vec4& c : color)
+    if (c.w > 0 && c.w < 1) c = vec4(vec3(c) / c.w, c.w);
+  return color;
+}
+
+struct Job {
+  Picture picture;
+  Grid<u8vec4> display;  ///< filled for 8-bit output
+  std::string device;
+  double seconds = 0;
+};
+
+Job render_on_cpu(const RenderArguments& arguments, const Scene& scene, const Frame& frame,
+                  bool display) {
+  Progress progress{"rendering", 1000, arguments.quiet};
+  Job job;
+  job.device = "CPU reference";
+  const double start = seconds_now();
+  job.picture = cpu::render(scene, frame, {}, [&](double done) {
+                  progress.set(std::size_t(1000 * done));
+                }).picture;
+  job.seconds = seconds_now() - start;
+  if (display)
+    job.display = cpu::encode_srgb(straight_alpha(job.picture.color), float(arguments.exposure));
+  return job;
+}
+
+Job render_on_gpu(const RenderArguments& arguments, const Scene& scene, const Frame& frame,
+                  bool display) {
+  gpu::Context context{{.device = arguments.device}};
+  Job job;
+  job.device = context.info().name + ", " + context.info().driver;
+  if (!arguments.quiet && context.info().cuts_loops_short)
+    std::fprintf(stderr,
+                 "parity: %s ends long shader loops early: large scenes may come out wrong\n",
+                 context.info().driver.c_str());
+  const double start = seconds_now();
+  job.picture = gpu::render(context, scene, frame);
+  job.seconds = seconds_now() - start;
+  if (display)
+    job.display =
+        gpu::encode_srgb(context, straight_alpha(job.picture.color), float(arguments.exposure));
+  return job;
+}
+
+nlohmann::json metrics(const RenderArguments& arguments, const Frame& frame, const Job& job,
+                       double load_seconds) {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  nlohmann::json passes = nlohmann::json::array();
+  for (const auto& [name, seconds] : job.picture.pass_seconds)
+    passes.push_back({{"name", name}, {"time_ms", seconds * 1e3}});
+  return {{"schema", "parity.render"},
+          {"version", 1},
+          {"input", arguments.input},
+          {"backend", arguments.backend},
+          {"device", job.device},
+          {"width", frame.options.width},
+          {"height", frame.options.height},
+          {"samples", frame.options.samples},
+          {"triangles", job.picture.triangle_count},
+          {"draws", frame.draws.size()},
+          {"lights", frame.lights.size()},
+          {"load_ms", load_seconds * 1e3},
+          {"render_ms", job.seconds * 1e3},
+          {"passes", passes},
+          {"device_memory_bytes", job.picture.memory_bytes},
+          {"peak_process_bytes", std::uint64_t(usage.ru_maxrss) * 1024}};
+}
+
+void check_output(const RenderArguments& arguments) {
+  if (arguments.output.empty()) {
+    if (!arguments.dry_run) throw std::invalid_argument("render: -o OUTPUT is missing");
+    return;
+  }
+  const std::filesystem::path output{arguments.output};
+  const std::string extension = output.extension().string();
+  if (extension != ".png" && extension != ".exr" && extension != ".hdr" && extension != ".pfm")
+    throw bad_option("output", arguments.output, "a file named *.png, *.exr, *.hdr or *.pfm");
+  std::error_code error;
+  if (std::filesystem::equivalent(output, arguments.input, error))
+    throw bad_option("output", arguments.output, "another file than the input");
+}
+
+void save(const RenderArguments& arguments, const Job& job) {
+  if (!job.display.empty()) {
+    save_png(arguments.output, job.display);
+    return;
+  }
+  Grid<vec4> color = straight_alpha(job.picture.color);
+  const float gain = std::exp2(float(arguments.exposure));
+  for (vec4& c : color) c = vec4(vec3(c) * gain, c.w);
+  save_image(arguments.output, color,
+             {.attributes = {{"device", job.device}, {"software", "Parity " PARITY_VERSION}}});
+}
+
+int render(const RenderArguments& arguments) {
+  check_output(arguments);
+  const ivec2 size = parse_size(arguments.size);
+  FrameOptions options{.width = size.x,
+                       .height = size.y,
+                       .samples = arguments.msaa,
+                       .camera = arguments.camera,
+                       .depth = parse_depth(arguments.depth),
+                       .background = parse_background(arguments.background)};
+  const double start = seconds_now();
+  const Scene scene = load_scene(arguments.input);
+  const double load_seconds = seconds_now() - start;
+  if (!arguments.quiet)
+    for (const std::string& note : scene.notes)
+      std::fprintf(stderr, "%s: %s\n", arguments.input.c_str(), note.c_str());
+  const Frame frame = make_frame(scene, options);
+  if (arguments.dry_run) {
+    std::printf("%s: fine, %zu draws, %zu lights, %zu materials, %zu images\n",
+                arguments.input.c_str(), frame.draws.size(), frame.lights.size(),
+                scene.materials.size(), scene.images.size());
+    return 0;
+  }
+  const bool display = std::filesystem::path(arguments.output).extension() == ".png";
+  const Job job = arguments.backend == "cpu" ? render_on_cpu(arguments, scene, frame, display)
+                                             : render_on_gpu(arguments, scene, frame, display);
+  save(arguments, job);
+  if (!arguments.metrics.empty()) {
+    const std::string text = metrics(arguments, frame, job, load_seconds).dump(2) + "\n";
+    write_file_atomically(arguments.metrics, std::as_bytes(std::span(text)));
+  }
+  if (arguments.verbose)
+    std::fprintf(stderr, "%s: %llu triangles, %dx%d, %d samples, %.1f ms on %s\n",
+                 arguments.output.c_str(),
+                 static_cast<unsigned long long>(job.picture.triangle_count), size.x, size.y,
+                 options.samples, job.seconds * 1e3, job.device.c_str());
+  return 0;
+}
+
+}  // namespace
+
+void add_render_verb(CLI::App& app, int& exit_code) {
+  CLI::App* verb =
+      app.add_subcommand("render", "Render a scene or mesh to a picture, without a window");
+  auto a = std::make_shared<RenderArguments>();
+  verb->add_option("input", a->input, "Scene (.gltf, .glb) or mesh (.obj, .ply, .stl, .off)")
+      ->required();
+  verb->add_option("-o,--output", a->output,
+                   "Picture: .png is display-referred sRGB; .exr, .hdr, .pfm are linear");
+  verb->add_option("--size", a->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+  verb->add_option(
+      "--camera", a->camera,
+      "Name or number of a camera of the scene (default: the first, else all is framed)");
+  verb->add_option("--msaa", a->msaa, "Samples a pixel")
+      ->check(CLI::IsMember({1, 2, 4, 8}))
+      ->capture_default_str();
+  verb->add_option("--backend", a->backend, "gpu: Vulkan; cpu: the reference alone")
+      ->check(CLI::IsMember({"gpu", "cpu"}))
+      ->capture_default_str();
+  verb->add_option("--device", a->device,
+                   "Vulkan device: number or part of its name (see parity devices)");
+  verb->add_option("--exposure", a->exposure, "Stops: +1 is twice as bright")
+      ->check(CLI::Range(-64.0, 64.0))
+      ->capture_default_str();
+  verb->add_option("--background", a->background, "#rrggbb[aa], linear r,g,b[,a], or transparent")
+      ->capture_default_str();
+  verb->add_option("--depth", a->depth, "Depth buffer")
+      ->check(CLI::IsMember({"reverse", "standard", "logarithmic"}))
+      ->capture_default_str();
+  verb->add_option("--threads", a->threads, "Threads of the CPU reference (default: all)")
+      ->check(CLI::Range(1, 1024));
+  verb->add_option("--metrics", a->metrics, "Write times, counts and memory to this JSON file");
+  verb->add_flag("--dry-run", a->dry_run, "Load and check everything, render nothing");
+  verb->add_flag("-q,--quiet", a->quiet, "No notes, no progress");
+  verb->add_flag("-v,--verbose", a->verbose, "Say what was done");
+  verb->footer(
+      "Examples:\n"
+      "  parity render assets/demo.glb -o demo.png\n"
+      "  parity render bunny.ply -o bunny.png --size 1024x1024 --background transparent\n"
+      "  parity render scene.gltf -o scene.exr --camera 1 --msaa 8 --metrics scene.json\n"
+      "  parity render scene.glb -o reference.png --backend cpu");
+  verb->callback([a, &exit_code] {
+    if (a->threads > 0) omp_set_num_threads(a->threads);
+    exit_code = render(*a);
+  });
+}
+
+}  // namespace parity::tools
