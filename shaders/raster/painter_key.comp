@@ -10,9 +10,10 @@ void main() {
   const uint triangle = gl_GlobalInvocationID.x;
   if (triangle >= args.source.triangle_count) return;
   const uvec3 corners = args.source.triangles.at[triangle];
-  precise float sum = args.source.clip_positions.at[corners.x].w +
-                      args.source.clip_positions.at[corners.y].w +
-                      args.source.clip_positions.at[corners.z].w;
+  const vec4 a = args.source.clip_positions.at[corners.x];
+  const vec4 b = args.source.clip_positions.at[corners.y];
+  const vec4 c = args.source.clip_positions.at[corners.z];
+  precise float sum = a.w + b.w + c.w;
   precise float mean = sum / 3.0;
   args.keys.at[triangle] = mean;
 }

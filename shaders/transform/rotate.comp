@@ -9,5 +9,6 @@ layout(scalar, push_constant) uniform Push { RotateArgs args; };
 void main() {
   const uint i = gl_GlobalInvocationID.x;
   if (i >= args.count) return;
-  args.results.at[i] = axis_rotation(args.inputs.at[i].xyz, args.inputs.at[i].w);
+  const vec4 rotation = args.inputs.at[i];
+  args.results.at[i] = axis_rotation(rotation.xyz, rotation.w);
 }
