@@ -183,6 +183,34 @@ TEST(GpuDepth, OfComputeAgreesWithTheFixedFunction) {
   }
 }
 
+// Depth is affine in the window whatever the perspective (erratum of notes 1.3). Corners on pixel
+// corners: nothing is lost by snapping.
+TEST(GpuDepth, IsAffineInTheWindow) {
+  TriangleList list{.width = 64, .height = 64, .samples = 1};
+  const auto depth_at = [](double x, double y) { return 0.1 + 0.004 * x + 0.002 * y; };
+  float w = 1;
+  for (const vec2 corner : {vec2(-16, 64), vec2(128, -32), vec2(0, -32)}) {
+    list.clip_positions.push_back(
+        at_window(list, corner.x, corner.y, float(depth_at(corner.x, corner.y)), w));
+    w *= 8;
+  }
+  list.triangles = {{0, 1, 2}};
+  const DepthImage compute = gpu::depth_test(test_context(), list, DepthMode::standard, 0, 0,
+                                             device_snapping(test_context()));
+  const DepthImage hardware =
+      gpu::hardware_depth_test(test_context(), list, DepthMode::standard, 0, 0);
+  int seen = 0;
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) {
+      if (compute.front(x, y) == 0) continue;
+      ++seen;
+      // Clip positions, window positions and the plane round a dozen times, values below 1.
+      EXPECT_NEAR(compute.depth(x, y), depth_at(x + 0.5, y + 0.5), 12 * 1.2e-7);
+      EXPECT_NEAR(hardware.depth(x, y), depth_at(x + 0.5, y + 0.5), 24 * 1.2e-7);
+    }
+  EXPECT_GT(seen, 500);
+}
+
 TEST(GpuDepth, IsLogarithmicInW) {
   const float near = 0.5f, far = 4;
   TriangleList list = random_triangles(64, 64, 1, 20, 4);
