@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "gpu/raster/compute_renderer.h"
 #include "gpu/raster/pipeline_renderer.h"
 #include "gpu/raster/scene_buffers.h"
 #include "gpu/raster/scene_frame.h"
@@ -14,13 +15,15 @@ struct Renderer::State {
         bytes_before(device.memory_bytes()),
         buffers(device, scene),
         blended(scene),
-        pipelines(device, buffers, render_options) {}
+        pipelines(device, buffers, render_options),
+        kernels(device, buffers, render_options) {}
 
   Context& context;
   std::uint64_t bytes_before;
   SceneBuffers buffers;
   BlendedPrimitives blended;
   PipelineRenderer pipelines;
+  ComputeRenderer kernels;
 };
 
 Renderer::Renderer(Context& context, const Scene& scene, RenderOptions options)
@@ -32,7 +35,10 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Picture Renderer::render(const Frame& frame) {
   State& s = *state_;
   const SceneFrame data(s.context, s.buffers, s.blended, frame);
-  Picture picture = s.pipelines.render(frame, data);
+  const std::vector<int>& counts = s.context.info().sample_counts;
+  const bool offered =
+      std::find(counts.begin(), counts.end(), frame.options.samples) != counts.end();
+  Picture picture = offered ? s.pipelines.render(frame, data) : s.kernels.render(frame, data);
   picture.triangle_count = data.triangle_count();
   const std::uint64_t bytes = s.context.memory_bytes();
   picture.memory_bytes = bytes > s.bytes_before ? bytes - s.bytes_before : 0;

@@ -39,9 +39,9 @@ void main() {
   normal = vertex_normal(draw, vertex);
   tangent = has_normal_maps ? vertex_tangent(draw, vertex) : vec4(0.0);
   color = has_colors ? vertex_color(draw, vertex) : vec4(1.0);
-  [[unroll]] for (uint i = 0u; i < 3u; ++i)
-    uv[i] = i < uv_pair_count ? vec4(vertex_uv(draw, 2u * i, vertex), vertex_uv(draw, 2u * i + 1u, vertex))
-                              : vec4(0.0);
+  uv[0] = uv_pair_count > 0u ? vertex_uv_pair(draw, 0u, vertex) : vec4(0.0);
+  uv[1] = uv_pair_count > 1u ? vertex_uv_pair(draw, 1u, vertex) : vec4(0.0);
+  uv[2] = uv_pair_count > 2u ? vertex_uv_pair(draw, 2u, vertex) : vec4(0.0);
   gl_Position = clip_position(draw.clip_from_object, p);
   gl_PointSize = 1.0;
 }

@@ -6,7 +6,6 @@
 
 layout(scalar, push_constant) uniform Push { SceneArgs args; };
 
-layout(constant_id = 7) const bool has_colors = true;
 layout(constant_id = 8) const bool in_order = false;  // blended: culls by itself
 layout(constant_id = 9) const bool cuts_out = true;   // alpha masks
 

@@ -109,6 +109,7 @@ struct SceneArgs {
   float near;
   float log2_far_over_near;  // logarithmic depth only
 };
+REF_TYPE(SceneArgs, 8)
 
 #ifdef __cplusplus
 }

@@ -12,6 +12,7 @@ layout(constant_id = 0) const bool has_textures = true;
 layout(constant_id = 1) const bool has_normal_maps = true;
 layout(constant_id = 2) const bool has_light = true;    // of any kind; else all is unlit
 layout(constant_id = 3) const uint uv_pair_count = 3u;  // pairs of uv sets that are read
+layout(constant_id = 7) const bool has_colors = true;
 layout(constant_id = 4) const float largest_value = 3.4028234e38;  // of the target
 
 struct Fragment {

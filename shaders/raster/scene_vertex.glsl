@@ -17,6 +17,11 @@ vec2 vertex_uv(SceneDraw draw, uint slot, uint v) {
   return draw.uvs[slot].at[v];
 }
 
+// Those of slots 2 pair and 2 pair + 1; `pair` is a constant wherever this is called.
+vec4 vertex_uv_pair(SceneDraw draw, uint pair, uint v) {
+  return vec4(vertex_uv(draw, 2u * pair, v), vertex_uv(draw, 2u * pair + 1u, v));
+}
+
 vec3 vertex_position(SceneDraw draw, vec3 p) { return draw.world_from_object * p + draw.world_origin; }
 
 vec3 vertex_normal(SceneDraw draw, uint v) {
