@@ -240,6 +240,18 @@ TEST(SceneUris, StayInTheFolder) {
     EXPECT_THROW(load_scene(folder.write("scene.gltf", square_with_uri(uri))), InputError) << uri;
 }
 
+TEST(SceneUris, AreOfRegularFilesOnly) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder.path() / "pipe.glb").c_str(), 0600), 0);
+  fs::create_directory(folder.path() / "folder.glb");
+  for (const char* name : {"pipe.glb", "folder.glb"}) try {
+      load_scene(folder.path() / name);
+      ADD_FAILURE() << name;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("regular file"), std::string::npos) << error.what();
+    }
+}
+
 TEST(SceneUris, OpenNothingFromMemory) {
   const std::string text = square_with_uri("near.bin");
   EXPECT_THROW(load_scene_from_memory(std::as_bytes(std::span(text)), "memory"), InputError);

@@ -188,6 +188,23 @@ TEST(SceneIo, ReplacesSparseElements) {
             (std::vector{p0, vec3(5, 0, 0), vec3(6, 6, 0), p0, vec3(6, 6, 0), p3}));
 }
 
+TEST(SceneIo, RefusesSparseIndicesPastTheEndAndOutOfOrder) {
+  const auto refuses = [](const std::vector<std::uint8_t>& places) {
+    GltfBuilder builder = plain_square();  // four vertices
+    const int indices = builder.view(places);
+    const int values = builder.view(std::vector<float>{5, 0, 0, 6, 6, 0});
+    builder.root["accessors"][0]["sparse"] = {
+        {"count", 2},
+        {"indices", {{"bufferView", indices}, {"componentType", 5121}}},
+        {"values", {{"bufferView", values}}}};
+    return refusal(builder) != "";
+  };
+  EXPECT_FALSE(refuses({0, 3}));
+  EXPECT_TRUE(refuses({0, 4}));
+  EXPECT_TRUE(refuses({3, 0}));
+  EXPECT_TRUE(refuses({2, 2}));
+}
+
 TEST(SceneIo, ReplacesSparseElementsOfZeros) {
   GltfBuilder builder;
   const int indices = builder.view(std::vector<std::uint16_t>{2});
@@ -261,6 +278,21 @@ TEST(SceneIo, BlendsJointsIntoTheWorldAndForgetsTheNodeOfTheMesh) {
   EXPECT_EQ(node.mesh, 0);
   EXPECT_EQ(node.parent, -1);
   EXPECT_EQ(node.parent_from_node, dmat4(1.0));
+}
+
+TEST(SceneIo, ScalesJointWeightsToASumOfOne) {
+  GltfBuilder builder;
+  const int position = builder.accessor(std::vector<float>{1, 2, 3}, "VEC3");
+  const int joints = builder.accessor(std::vector<std::uint16_t>{0, 0, 0, 0}, "VEC4");
+  const int weights = builder.accessor(std::vector<float>{0.25f, 0.25f, 0, 0}, "VEC4");
+  builder.show(
+      {{"attributes", {{"POSITION", position}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}}},
+       {"mode", 0}});
+  builder.root["nodes"] = {{{"mesh", 0}, {"skin", 0}}, {{"translation", {0, 0, 4}}}};
+  builder.root["skins"] = {{{"joints", {1}}}};
+  const Scene scene = load(builder);
+  EXPECT_EQ(first_primitive(scene).positions, std::vector{vec3(1, 2, 7)});
+  EXPECT_EQ(scene.notes.size(), 1u);
 }
 
 TEST(SceneIo, ReadsCameras) {
@@ -514,6 +546,17 @@ TEST(SceneIo, ChecksIndicesOfMeshesThatAreNotShown) {
   EXPECT_NE(refusal(builder).find("element 2 is 7"), std::string::npos);
 }
 
+TEST(SceneIo, RefusesTheIndexAfterTheLastVertex) {
+  EXPECT_NE(refusal(square_with_indices({0, 1, 4}, 4)).find("element 2 is 4"), std::string::npos);
+}
+
+TEST(SceneIo, RefusesACycleThatNoSceneShows) {
+  GltfBuilder builder = plain_square();
+  builder.root["nodes"].push_back({{"children", {2}}});
+  builder.root["nodes"].push_back({{"children", {1}}});
+  EXPECT_EQ(refusal(builder), "test.glb: nodes[1] is its own ancestor");
+}
+
 TEST(SceneIo, TakesBuffersWithoutBytesThatNothingReads) {
   GltfBuilder builder;
   builder.root["buffers"] = {{{"byteLength", 8}}};
@@ -540,6 +583,30 @@ TEST(SceneIo, ReadsPlainDataUris) {
 TEST(SceneIo, RefusesWhatGoesOnAfterTheJson) {
   const std::string text = R"({"asset":{"version":"2.0"}} {})";
   EXPECT_THROW(load_scene_from_memory(std::as_bytes(std::span(text)), "two.gltf"), InputError);
+}
+
+std::string refusal_of_text(const std::string& text) {
+  try {
+    load_scene_from_memory(std::as_bytes(std::span(text)), "text.gltf");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SceneIo, RefusesAKeyThatStandsTwice) {
+  EXPECT_EQ(refusal_of_text(R"({"asset":{"version":"2.0","version":"2.0"}})"),
+            "text.gltf: JSON: key \"version\" stands twice in one object");
+}
+
+TEST(SceneIo, RefusesDeepNestingWhereverItIs) {
+  const auto nested = [](std::size_t depth) {
+    return R"({"asset":{"version":"2.0"},"extras":)" + std::string(depth, '[') +
+           std::string(depth, ']') + "}";
+  };
+  EXPECT_EQ(refusal_of_text(nested(511)), "");  // and the root: 512
+  EXPECT_EQ(refusal_of_text(nested(512)), "text.gltf: JSON: nested deeper than 512");
+  EXPECT_EQ(refusal_of_text(nested(1000000)), "text.gltf: JSON: nested deeper than 512");
 }
 
 TEST(SceneIo, LoadsAnEmptyScene) {
