@@ -1,9 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <string>
 
 #include "gpu/core/commands.h"
+#include "gpu/core/faults.h"
 #include "shaders.h"
 #include "shaders/core/layout.h"
 #include "tests/gpu_context.h"
@@ -142,6 +146,18 @@ TEST(GpuCore, TogetherBuffersMayNotExceedTheHeap) {
   EXPECT_EQ(add_on_device(context, counting(3), 1, {}), (std::vector<float>{1, 2, 3}));
 }
 
+TEST(GpuCore, GivesLargeMemoryBack) {
+  const gpu::faults::Injection injection({});
+  gpu::Context context;
+  const std::int64_t before = injection.report().live_objects;
+  const auto allocate = [&] { return Buffer<float>(context, std::size_t{4} << 20); };
+  {
+    const Buffer<float> large = allocate();
+    EXPECT_EQ(injection.report().live_objects, before + 2);  // a buffer and its memory
+  }
+  EXPECT_EQ(injection.report().live_objects, before);
+}
+
 TEST(GpuCore, CountsTheBytesThatLive) {
   gpu::Context& context = test_context();
   const std::uint64_t before = context.memory_bytes();
@@ -259,6 +275,41 @@ TEST(GpuCore, ChoosesDevicesByIndexAndName) {
   EXPECT_EQ(gpu::Context({.device = name}).info().name, info.name);
   for (const char* missing : {"no such device", "99", "-1"})
     EXPECT_EQ(kind_of_error([&] { gpu::Context({.device = missing}); }), ErrorKind::no_device);
+}
+
+/// An environment variable for as long as it lives.
+class Environment {
+ public:
+  Environment(const char* name, const char* value) : name_(name) {
+    if (const char* old = std::getenv(name)) old_ = old;
+    setenv(name, value, 1);
+  }
+  ~Environment() {
+    if (old_)
+      setenv(name_, old_->c_str(), 1);
+    else
+      unsetenv(name_);
+  }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> old_;
+};
+
+TEST(GpuCore, TheEnvironmentChoosesTheDeviceUnlessTheCallerDoes) {
+  const std::string index = std::to_string(test_context().info().index);
+  const Environment environment("PARITY_DEVICE", "no such device");
+  EXPECT_EQ(kind_of_error([] { gpu::Context(); }), ErrorKind::no_device);
+  EXPECT_EQ(kind_of_error([&] { gpu::Context({.device = index}); }), std::nullopt);
+}
+
+TEST(GpuCore, SaysThatThereIsNoDriver) {
+  const Environment files("VK_DRIVER_FILES", "/nonexistent/driver.json");
+  const Environment old_name("VK_ICD_FILENAMES", "/nonexistent/driver.json");
+  EXPECT_EQ(kind_of_error([] { gpu::Context(); }), ErrorKind::no_driver);
+  EXPECT_EQ(kind_of_error([] { gpu::list_devices(); }), ErrorKind::no_driver);
 }
 
 TEST(GpuCore, TheDeviceSaysWhatItIs) {

@@ -65,6 +65,15 @@ TEST(Reflect, RefusesWhatIsNoModule) {
   EXPECT_FALSE(accepts(nothing));
 }
 
+TEST(Reflect, RefusesInstructionsThatLackAWord) {
+  // OpTypePointer has three operands; with two, the third would be the next instruction.
+  const std::uint32_t entry_point = (2u << 16) | 15;
+  const std::uint32_t type_pointer = (3u << 16) | 32;
+  EXPECT_TRUE(accepts(std::vector<std::uint32_t>{0x07230203, 0x00010600, 0, 9, 0, entry_point, 5}));
+  EXPECT_FALSE(accepts(std::vector<std::uint32_t>{0x07230203, 0x00010600, 0, 9, 0, type_pointer, 1,
+                                                  2, entry_point, 5}));
+}
+
 TEST(Reflect, SurvivesTruncation) {
   const std::span<const std::uint32_t> words = gpu::shaders::core_test_invert_comp.words;
   for (std::size_t length = 0; length < words.size(); ++length) {
