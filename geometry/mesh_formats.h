@@ -14,6 +14,11 @@ namespace parity::detail {
 
 using Bytes = std::span<const std::byte>;
 
+/// Appends bytes as they lie in memory.
+inline void append_bytes(std::string& bytes, const void* from, std::size_t count) {
+  bytes.append(static_cast<const char*>(from), count);
+}
+
 inline std::string_view text_of(Bytes bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
@@ -39,6 +44,9 @@ class LineReader {
 
 /// Takes the next word (no blanks) off a line; empty: there is none.
 std::string_view take_word(std::string_view& line);
+
+/// What is left of a line, without the blanks around it: a name that may hold blanks.
+std::string_view trimmed(std::string_view line);
 
 /// A word in quotes for a message, cut and cleaned.
 std::string quoted(std::string_view word);

@@ -35,6 +35,12 @@ std::string_view take_word(std::string_view& line) {
   return word;
 }
 
+std::string_view trimmed(std::string_view line) {
+  while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
+  while (!line.empty() && is_blank(line.back())) line.remove_suffix(1);
+  return line;
+}
+
 std::string quoted(std::string_view word) {
   std::string text = "'";
   for (char c : word.substr(0, 40)) text += c >= 32 && c < 127 ? c : '?';

@@ -40,15 +40,6 @@ bool is_color_by_other_means(std::string_view line) {
   return word == "spectral" || word == "xyz" || word == "-halo";
 }
 
-std::string_view material_name(std::string_view line) {
-  std::string_view rest = line;
-  const std::string_view first = take_word(rest);
-  if (first.empty()) return {};
-  std::string_view text(first.data(), std::size_t(line.data() + line.size() - first.data()));
-  while (text.ends_with(' ') || text.ends_with('\t')) text.remove_suffix(1);
-  return text;
-}
-
 }  // namespace
 
 void apply_mtl(Mesh& mesh, Bytes bytes, const std::string& name) {
@@ -57,7 +48,7 @@ void apply_mtl(Mesh& mesh, Bytes bytes, const std::string& name) {
   for (std::string_view line; lines.next(line);) {
     const std::string_view keyword = take_word(line);
     if (keyword == "newmtl") {
-      const std::string_view wanted = material_name(line);
+      const std::string_view wanted = trimmed(line);
       const auto found =
           std::find_if(mesh.materials.begin(), mesh.materials.end(),
                        [&](const MeshMaterial& known) { return known.name == wanted; });

@@ -59,20 +59,11 @@ class ObjReader {
     else if (keyword == "f" || keyword == "fo")
       read_face(line);
     else if (keyword == "usemtl")
-      use_material(std::string(rest_of(line)));
+      use_material(std::string(trimmed(line)));
     else if (keyword == "mtllib")
-      file_.material_files.emplace_back(rest_of(line));
+      file_.material_files.emplace_back(trimmed(line));
     else if (keyword != "o" && keyword != "g" && keyword != "s" && ignored_.size() < 16)
       ignored_.insert(std::string(keyword.substr(0, 40)));
-  }
-
-  static std::string_view rest_of(std::string_view line) {
-    std::string_view tail = line;
-    const std::string_view first = take_word(tail);
-    if (first.empty()) return {};
-    std::string_view text(first.data(), std::size_t(line.data() + line.size() - first.data()));
-    while (text.ends_with(' ') || text.ends_with('\t')) text.remove_suffix(1);
-    return text;
   }
 
   /// x y z, then nothing, a weight, or a colour.

@@ -317,10 +317,6 @@ class PlyReader {
   std::size_t dropped_faces_ = 0;
 };
 
-void append(std::string& bytes, const void* from, std::size_t count) {
-  bytes.append(static_cast<const char*>(from), count);
-}
-
 std::uint8_t srgb_byte(float linear) {
   return std::uint8_t(std::lround(255.0 * std::clamp(srgb_from_linear(double(linear)), 0.0, 1.0)));
 }
@@ -338,15 +334,15 @@ std::string encode_ply(const Mesh& mesh) {
   bytes += "element face " + std::to_string(mesh.face_count()) +
            "\nproperty list uint uint vertex_indices\nend_header\n";
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
-    append(bytes, &mesh.positions[v], sizeof(vec3));
+    append_bytes(bytes, &mesh.positions[v], sizeof(vec3));
     for (int c = 0; c < 3 && !mesh.vertex_colors.empty(); ++c)
       bytes += char(srgb_byte(mesh.vertex_colors[v][c]));
   }
   for (std::size_t face = 0; face < mesh.face_count(); ++face) {
     const std::uint32_t begin = mesh.face_begin[face];
     const std::uint32_t count = mesh.face_begin[face + 1] - begin;
-    append(bytes, &count, 4);
-    append(bytes, &mesh.corners[begin], 4 * std::size_t(count));
+    append_bytes(bytes, &count, 4);
+    append_bytes(bytes, &mesh.corners[begin], 4 * std::size_t(count));
   }
   return bytes;
 }

@@ -124,10 +124,6 @@ Mesh decode_ascii(Bytes bytes, const std::string& name) {
   return welder.take();
 }
 
-void append(std::string& bytes, const void* from, std::size_t count) {
-  bytes.append(static_cast<const char*>(from), count);
-}
-
 vec3 facet_normal(const std::array<vec3, 3>& p) {
   const dvec3 normal = glm::cross(dvec3(p[1]) - dvec3(p[0]), dvec3(p[2]) - dvec3(p[0]));
   const double length = glm::length(normal);
@@ -149,13 +145,13 @@ std::string encode_stl(const Mesh& mesh) {
   const std::vector<CornerTriangle> triangles = triangulate(mesh);
   std::string bytes(head_bytes - 4, ' ');
   const auto count = std::uint32_t(triangles.size());
-  append(bytes, &count, 4);
+  append_bytes(bytes, &count, 4);
   for (const CornerTriangle& triangle : triangles) {
     std::array<vec3, 3> facet;
     for (std::size_t i = 0; i < 3; ++i) facet[i] = mesh.positions[mesh.corners[triangle[i]]];
     const vec3 normal = facet_normal(facet);
-    append(bytes, &normal, 12);
-    append(bytes, facet.data(), sizeof facet);
+    append_bytes(bytes, &normal, 12);
+    append_bytes(bytes, facet.data(), sizeof facet);
     bytes.append(2, '\0');
   }
   return bytes;
