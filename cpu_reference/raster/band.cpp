@@ -33,7 +33,7 @@ Band::Band(const RenderJob& job, PixelBox box) : job_(job), box_(box), surfaces_
   color_.assign(pixels * job.places.size(), background);
   if (!job.options.bounds) return;
   doubt_.emplace(pixels, job.places.size(), job.depth.distance(job.depth.cleared()),
-                 job.options.device.half_color ? 0x1p-11 : 0x1p-24);
+                 job.options.device.half_color ? 0x1p-10 : 0x1p-23);
   for (std::size_t i = 0; i < color_.size(); ++i) doubt_->set_color(i, background, dvec4(0.0));
 }
 

@@ -95,7 +95,7 @@ dvec4 BandDoubt::color_bound(std::size_t pixel, const dvec4& resolved) const {
     sum += error_[pixel * samples_per_pixel_ + s];
   dvec4 bound = sum / double(samples_per_pixel_);
   // A resolve is right within two ulp of the target.
-  if (samples_per_pixel_ > 1) bound += glm::abs(resolved) * (4 * step_);
+  if (samples_per_pixel_ > 1) bound += glm::abs(resolved) * (2 * step_);
   for (int c = 0; c < 4; ++c)
     if (step_ > 0x1p-12 && std::abs(resolved[c]) + bound[c] > largest_half)
       bound[c] = std::numeric_limits<double>::infinity();

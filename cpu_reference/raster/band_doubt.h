@@ -18,6 +18,8 @@ struct DepthRange {
 /// What is uncertain in the samples of a band: who is in front, and how far colours may be off.
 class BandDoubt {
  public:
+  /// @param cleared  distance that the depth buffer starts with.
+  /// @param step     an ulp of the colour target, relative.
   BandDoubt(std::size_t pixels, std::size_t samples_per_pixel, double cleared, double step);
 
   /// A fragment of an element that may be seen at a sample. `maybe`: a device may leave it out, or
@@ -38,7 +40,7 @@ class BandDoubt {
 
   void mark(std::size_t pixel) { marked_[pixel] = 1; }
 
-  /// A sample is given a colour with this error. `step`: relative rounding of the target.
+  /// A sample is given a colour with this error.
   void set_color(std::size_t sample, const dvec4& color, const dvec4& error);
 
   /// A layer is blended over a sample: color of the layer (RGB not multiplied by alpha) and its
@@ -62,7 +64,7 @@ class BandDoubt {
   };
 
   std::size_t samples_per_pixel_;
-  double step_;  ///< relative rounding of a stored colour
+  double step_;  ///< an ulp of a stored colour: either neighbour is right (lavapipe truncates)
   std::vector<Contest> contests_;
   std::vector<dvec4> error_;
   std::vector<std::uint8_t> marked_;

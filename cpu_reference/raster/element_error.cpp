@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cpu_reference/raster/clip.h"
 #include "cpu_reference/raster/surface_bound.h"
 
 namespace parity::cpu {
@@ -13,6 +14,21 @@ bool crosses_view(const std::array<vec4, 3>& clip) {
   return std::any_of(clip.begin(), clip.end(), [](const vec4& p) {
     return !(std::abs(p.x) <= p.w && std::abs(p.y) <= p.w && p.z >= 0 && p.z <= p.w);
   });
+}
+
+/// Whether a point lies in a triangle or at most so far outside of it.
+bool reaches(const std::array<dvec2, 3>& corners, dvec2 p, double outside) {
+  const dvec2 u = corners[1] - corners[0], v = corners[2] - corners[0];
+  const double sign = u.x * v.y - u.y * v.x < 0 ? -1 : 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const dvec2 a = corners[i], edge = corners[(i + 1) % 3] - a;
+    const dvec2 low = glm::min(a, a + edge) - outside, high = glm::max(a, a + edge) + outside;
+    const double side = sign * (edge.x * (p.y - a.y) - edge.y * (p.x - a.x));
+    if (side < -outside * glm::length(edge)) return false;
+    if (side < 0 && (glm::any(glm::lessThan(p, low)) || glm::any(glm::greaterThan(p, high))))
+      return false;
+  }
+  return true;
 }
 
 double gradient_length(const dvec3& plane) { return std::hypot(plane.x, plane.y); }
@@ -27,33 +43,60 @@ ElementError::ElementError(const PlacedDraw& draw, std::uint32_t element, const 
   const double side = std::max(width_, height_);
   // Half a step of the grid, and the float of the window position itself: divide, scale, add.
   snap_ = std::numbers::sqrt2 * (std::exp2(-limits.sub_pixel_bits - 1) + 1.5 * 2 * half_ulp * side);
-  double longest = std::hypot(width_, height_), area = longest;
-  bool in_front = true;
+  if (draw.primitive->topology == Topology::lines && frame.options.samples > 1)
+    shift_ = limits.multisampled_line_shift;
+  reach_ = frame.options.samples > 1 ? 1 : 2 * snap_;
   for (std::size_t i = 0; i < 3; ++i) {
     w_[i] = clip[i].w;
     z_[i] = clip[i].z;
-    in_front &= clip[i].w > 0;
   }
-  if (in_front && !clipped_ && draw.primitive->topology == Topology::triangles) {
-    std::array<dvec2, 3> p;
+  if (draw.primitive->topology != Topology::triangles) return;
+  if (!clipped_) {
+    std::array<dvec2, 3> window;
     for (std::size_t i = 0; i < 3; ++i)
-      p[i] = window_of(dvec4(clip[i]), frame.options.width, frame.options.height);
-    longest =
-        std::max({glm::distance(p[0], p[1]), glm::distance(p[1], p[2]), glm::distance(p[2], p[0])});
-    const dvec2 u = p[1] - p[0], v = p[2] - p[0];
-    area = std::max(std::abs(u.x * v.y - u.y * v.x), 1e-300);
+      window[i] = window_of(dvec4(clip[i]), frame.options.width, frame.options.height);
+    whole_ = slenderness_of(window);
+    return;
   }
-  slenderness_ = longest * longest / area;
-  per_pixel_ = longest / area;
-  if (!clipped_) return;
-  // Parts of a clipped triangle are judged as if their height were a tenth of their length: what
-  // is slimmer covers hardly a pixel beside the border, which is in doubt anyway.
-  slenderness_ = 10;
-  per_pixel_ = 10 / longest;
   double largest = 0;
   for (const vec4& c : clip)
     largest = std::max({largest, std::abs(double(c.x)), std::abs(double(c.y)), double(c.w)});
-  clip_error_ = 4 * half_ulp * largest * side;
+  clip_error_ = 4 * half_ulp * largest;
+  add_parts(clip);
+}
+
+ElementError::Slenderness ElementError::slenderness_of(const std::array<dvec2, 3>& p) {
+  const double longest =
+      std::max({glm::distance(p[0], p[1]), glm::distance(p[1], p[2]), glm::distance(p[2], p[0])});
+  const dvec2 u = p[1] - p[0], v = p[2] - p[0];
+  const double area = std::max(std::abs(u.x * v.y - u.y * v.x), 1e-300);
+  return {longest * longest / area, longest / area};
+}
+
+/// Every edge of the clipped polygon with every other corner: whichever fan a device makes of it,
+/// its triangles are among these. Those below the ratio that `slenderness` starts from are left
+/// out.
+void ElementError::add_parts(const std::array<vec4, 3>& clip) {
+  const ClippedPolygon polygon =
+      clip_triangle({dvec4(clip[0]), dvec4(clip[1]), dvec4(clip[2])}, 1.0);
+  whole_ = {10, 10 / std::hypot(width_, height_)};
+  const auto corner = [&](std::uint32_t i) {
+    return window_of(polygon.position[i % polygon.count], int(width_), int(height_));
+  };
+  for (std::uint32_t edge = 0; edge < polygon.count; ++edge)
+    for (std::uint32_t apex = 2; apex < polygon.count; ++apex) {
+      Part part{{corner(edge), corner(edge + 1), corner(edge + apex)}, {}};
+      part.slenderness = slenderness_of(part.corners);
+      if (part.slenderness.ratio > whole_.ratio) parts_.push_back(part);
+    }
+}
+
+ElementError::Slenderness ElementError::slenderness(double x, double y) const {
+  Slenderness worst = whole_;
+  for (const Part& part : parts_)
+    if (part.slenderness.ratio > worst.ratio && reaches(part.corners, {x, y}, reach_))
+      worst = {part.slenderness.ratio, std::max(worst.per_pixel, part.slenderness.per_pixel)};
+  return worst;
 }
 
 dvec3 ElementError::plane_of(const std::array<double, 3>& values) const {
@@ -68,22 +111,27 @@ double ElementError::largest_over_w(const std::array<double, 3>& values) const {
   return largest;
 }
 
-double ElementError::rounding(const dvec3& plane, double largest) const {
-  const double over_window =
-      std::abs(plane.z) + std::abs(plane.x) * width_ + std::abs(plane.y) * height_;
-  const double vertices = clipped_ ? over_window : largest;
-  return half_ulp * (8 * std::max(over_window, largest) + 4 * vertices * slenderness_);
+/// Largest sum of a plane's terms in the window.
+double ElementError::over_window(const dvec3& plane) const {
+  return std::abs(plane.z) + std::abs(plane.x) * width_ + std::abs(plane.y) * height_;
+}
+
+double ElementError::rounding(const dvec3& plane, double largest, double slenderness) const {
+  const double everywhere = over_window(plane);
+  const double vertices = clipped_ ? everywhere : largest;
+  return half_ulp * (8 * std::max(everywhere, largest) + 4 * vertices * slenderness);
 }
 
 double ElementError::moved(double x, double y) const {
-  if (clipped_) return snap_ + clip_error_ * std::abs(at(planes_.one_over_w, x, y));
+  if (clipped_) return edge(x, y) - snap_ + shift_;
   double spread = 0;
   for (std::size_t i = 0; i < 3; ++i) spread += std::abs(at(planes_.weight[i], x, y) * w_[i]);
-  return snap_ * std::max(1.0, spread);
+  return snap_ * std::max(1.0, spread) + shift_;
 }
 
 double ElementError::edge(double x, double y) const {
-  return 2 * snap_ + (clipped_ ? clip_error_ * std::abs(at(planes_.one_over_w, x, y)) : 0.0);
+  const double one_over_w = std::abs(at(planes_.one_over_w, x, y));
+  return 2 * snap_ + clip_error_ * one_over_w * std::max(width_, height_);
 }
 
 double ElementError::varying(const std::array<double, 3>& values, int x, int y) const {
@@ -93,12 +141,15 @@ double ElementError::varying(const std::array<double, 3>& values, int x, int y) 
   const double divisor = at(d, px, py);
   const double a = at(n, px, py) / divisor;
   const double gradient = gradient_length(n - d * a) / std::abs(divisor);
-  const double divisor_error = rounding(d, largest_over_w({1.0, 1.0, 1.0}));
+  const double slender = slenderness(px, py).ratio;
+  const double divisor_error = rounding(d, largest_over_w({1.0, 1.0, 1.0}), slender);
   const double least_divisor = std::abs(divisor) - divisor_error;
   if (!(least_divisor > 0)) return std::numeric_limits<double>::infinity();
+  const double largest = std::max({std::abs(values[0]), std::abs(values[1]), std::abs(values[2])});
   return gradient * moved(px, py) +
-         (rounding(n, largest_over_w(values)) + std::abs(a) * divisor_error) / least_divisor +
-         22 * half_ulp * std::abs(a);
+         (rounding(n, largest_over_w(values), slender) + std::abs(a) * divisor_error) /
+             least_divisor +
+         22 * half_ulp * std::abs(a) + clip_error_ * 2 * largest * std::abs(divisor);
 }
 
 double ElementError::difference(const std::array<double, 3>& values, int x, int y,
@@ -116,9 +167,11 @@ double ElementError::difference(const std::array<double, 3>& values, int x, int 
       turned += std::abs((planes_.weight[i].x * step.x + planes_.weight[i].y * step.y) * w_[i]);
   // The origin's value is common to both; products and sums round at each pixel alone, and the
   // error of the slopes acts over one pixel.
+  const double per_pixel = slenderness(px, py).per_pixel;
   const auto evaluation = [&](const dvec3& plane, double largest) {
+    const double vertices = clipped_ ? over_window(plane) : largest;
     const double sum = std::abs(plane.z) + std::abs(plane.x) * qx + std::abs(plane.y) * qy;
-    return half_ulp * (6 * sum + 4 * largest * per_pixel_);
+    return half_ulp * (6 * sum + 4 * vertices * per_pixel);
   };
   const double float_error =
       (evaluation(n, largest_over_w(values)) +
@@ -132,16 +185,19 @@ double ElementError::difference(const std::array<double, 3>& values, int x, int 
 double ElementError::depth(int x, int y, dvec2 place, const DepthTest& test) const {
   if (test.mode != DepthMode::logarithmic) {
     const dvec3& z = planes_.depth;
-    return gradient_length(z) * moved(x + place.x, y + place.y) + rounding(z, largest_over_w(z_)) +
-           half_ulp;
+    const double px = x + place.x, py = y + place.y;
+    return gradient_length(z) * moved(px, py) +
+           rounding(z, largest_over_w(z_), slenderness(px, py).ratio) + half_ulp +
+           clip_error_ * std::abs(at(planes_.one_over_w, px, py)) * (1 + std::abs(at(z, px, py)));
   }
   const dvec3& d = planes_.one_over_w;
   const double one_over_w = at(d, x + 0.5, y + 0.5);
   if (!(one_over_w > 0)) return 1;
-  const double relative = (gradient_length(d) * moved(x + 0.5, y + 0.5) +
-                           rounding(d, largest_over_w({1.0, 1.0, 1.0}))) /
-                              one_over_w +
-                          6 * half_ulp;
+  const double relative =
+      (gradient_length(d) * moved(x + 0.5, y + 0.5) +
+       rounding(d, largest_over_w({1.0, 1.0, 1.0}), slenderness(x + 0.5, y + 0.5).ratio)) /
+          one_over_w +
+      6 * half_ulp + clip_error_ * one_over_w;
   const double octaves = std::log2(test.far / test.near);
   const double log_error = 0x1p-21 + 6 * half_ulp * std::abs(std::log2(one_over_w * test.near));
   // The quotient of two logarithms, each with its error; the quotient is at most 1.

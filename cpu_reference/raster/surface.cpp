@@ -125,11 +125,12 @@ ElementSurface element_surface(const PlacedDraw& placed, std::uint32_t element,
     const std::uint32_t v = vertices[i];
     s.position[i] = dvec3(draw.world_from_object * dvec4(dvec3(p.positions[v]), 1.0));
     if (!p.normals.empty()) s.normal[i] = draw.world_from_object_normal * dvec3(p.normals[v]);
-    if (!p.tangents.empty()) s.tangent[i] = linear * dvec3(p.tangents[v]);
+    if (!p.tangents.empty()) {
+      s.tangent[i] = linear * dvec3(p.tangents[v]);
+      s.handedness[i] = double(p.tangents[v].w) * (draw.mirrored ? -1.0 : 1.0);
+    }
     s.color[i] = p.colors.empty() ? dvec4(1.0) : dvec4(p.colors[v]);
   }
-  if (!p.tangents.empty())
-    s.handedness = double(p.tangents[vertices[0]].w) * (draw.mirrored ? -1.0 : 1.0);
   for (std::size_t slot = 0; slot < slot_count; ++slot)
     if (!(*s.textures)[slot].levels.empty())
       s.uv[slot] = transformed_uvs(p, texture_use(*s.material, slot), vertices);
@@ -178,12 +179,12 @@ ShadingPoint<double> shading_point(const ElementSurface& s, int x, int y, bool b
   static const std::array<double, shading_input::count> white = white_inputs();
   ShadingPoint<double> point;
   point.inputs = white;
-  point.handedness = s.handedness;
   point.back = back;
   const QuadBarycentrics b = quad_barycentrics(s.planes, x, y);
   set_triple(point.inputs, shading_input::position, interpolate(s.position, b.here));
   set_triple(point.inputs, shading_input::normal, interpolate(s.normal, b.here));
   set_triple(point.inputs, shading_input::tangent, interpolate(s.tangent, b.here));
+  point.inputs[shading_input::handedness] = interpolate(s.handedness, b.here);
   const dvec4 color = interpolate(s.color, b.here);
   set_triple(point.inputs, shading_input::color, dvec3(color));
   point.inputs[shading_input::color + 3] = color.w;

@@ -54,7 +54,7 @@ struct ElementSurface {
   std::array<dvec3, 3> tangent{};
   std::array<dvec4, 3> color{};
   std::array<std::array<dvec2, 3>, slot_count> uv{};  ///< transformed, by slot
-  double handedness = 1;
+  std::array<double, 3> handedness{1.0, 1.0, 1.0};
 };
 ElementSurface element_surface(const PlacedDraw& draw, std::uint32_t element,
                                const SceneTextures& textures, const Frame& frame);

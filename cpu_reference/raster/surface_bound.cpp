@@ -52,6 +52,8 @@ Inputs varying_errors(const PlacedDraw& placed, std::uint32_t element, const Ele
           error.varying(component(s.tangent, c), x, y) + 5 * half_ulp * longest;
     }
   }
+  if (lit && !p.tangents.empty() && s.material->normal_texture.texture >= 0)
+    e[shading_input::handedness] = error.varying(s.handedness, x, y);
   if (!p.colors.empty())
     for (int c = 0; c < 4; ++c)
       e[shading_input::color + std::size_t(c)] = error.varying(component(s.color, c), x, y);
@@ -95,10 +97,12 @@ void bound_lambda(TextureDoubt& doubt, dvec2 size, dvec2 dx_error, dvec2 dy_erro
   const double most = std::max(across + across_error, down + down_error);
   const double rounding = 0x1p-21 + 6 * half_ulp * std::abs(doubt.place.lambda);
   const auto finite = [](double v, double otherwise) { return std::isnan(v) ? otherwise : v; };
-  doubt.lambda_low = finite(std::log2(least) + limits.lod_low - rounding,
-                            -std::numeric_limits<double>::infinity());
+  const double low = limits.sampler ? limits.sampler->lod_low : 0.0;
+  const double high = limits.sampler ? limits.sampler->lod_high : 0.0;
+  doubt.lambda_low =
+      finite(std::log2(least) + low - rounding, -std::numeric_limits<double>::infinity());
   doubt.lambda_high =
-      finite(std::log2(most) + limits.lod_high + rounding, std::numeric_limits<double>::infinity());
+      finite(std::log2(most) + high + rounding, std::numeric_limits<double>::infinity());
 }
 
 TextureDoubt texture_doubt(const PlacedDraw& placed, std::uint32_t element, const ElementSurface& s,
@@ -128,12 +132,16 @@ TextureDoubt texture_doubt(const PlacedDraw& placed, std::uint32_t element, cons
   return doubt;
 }
 
-/// A decoded texel's error: the slope of the sRGB curve is concave in the linear value, so at the
-/// filtered value it is at least the mean of the texels' slopes.
+/// A decoded texel's error, seen through the filter. In a shader it is that of
+/// x^2.4 = exp2(2.4 log2 x) on [0.04, 1]: 2.4 ln 2 (3 ulp of 4.6 + 2^-21) and 3 + 2 * 11 ulp of the
+/// result, less than 2^-16 of it in all. In a sampler it is an error of the code; the slope of the
+/// sRGB curve is concave in the linear value, so at the filtered value it is at least the mean of
+/// the texels' slopes.
 double decode_error(double linear, const DeviceLimits& limits) {
   const double v = std::clamp(linear, 0.0, 1.0);
+  if (!limits.sampler) return v * 0x1p-16;
   const double slope = std::max(1 / 12.92, 2.4 / 1.055 * std::pow(v, 1.4 / 2.4));
-  return slope * limits.srgb_decode_codes / 255.0;
+  return slope * limits.sampler->srgb_decode_codes / 255.0;
 }
 
 struct BoundedLookup {
@@ -166,13 +174,14 @@ BoundedLookup lookup(const MippedTexture& texture, const TextureDoubt& doubt,
   const bool filters =
       texture.sampler.mag == Filter::linear || texture.sampler.min == Filter::linear;
   const dvec2 weight_step =
-      filters ? texel_size(texture, lambda) * std::exp2(-limits.sub_texel_bits) : dvec2(0.0);
+      limits.sampler ? texel_size(texture, lambda) * std::exp2(-limits.sampler->sub_texel_bits)
+                     : dvec2(0.0);
   for (int axis = 0; axis < 2; ++axis) {
-    // The filter's weights are coarse; where texels are chosen, not mixed, only coordinates count.
+    // A sampler's weights are coarse; where texels are chosen, not mixed, only coordinates count.
     dvec2 step{0.0};
     step[axis] = doubt.uv_error[axis];
     dvec4 change = glm::max(move(uv + step, lambda), move(uv - step, lambda));
-    if (filters && center.choices == 0) {
+    if (limits.sampler && filters && center.choices == 0) {
       step[axis] += weight_step[axis];
       change = glm::max(change, glm::max(move(uv + step, lambda), move(uv - step, lambda)));
     }
@@ -238,7 +247,6 @@ dvec4 arithmetic(const BoundedPoint& p, const Material& material, const ShadingS
                  const dvec4& value) {
   ShadingPoint<Interval> exact;
   for (std::size_t i = 0; i < shading_input::count; ++i) exact.inputs[i] = p.point.inputs[i];
-  exact.handedness = p.point.handedness;
   exact.back = p.point.back;
   const Shaded<Interval> range = shade(material, scene, exact);
   return {deviation(range.rgb[0], value.x), deviation(range.rgb[1], value.y),

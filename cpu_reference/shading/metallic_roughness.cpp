@@ -75,15 +75,15 @@ struct Surface {
   Real n_dot_v{};
 };
 
-/// Normal of the point: interpolated, or turned by the normal map in the frame (T, B, N), where T
-/// is as interpolated and B = cross(N, T) w; turned over where seen from behind.
+/// Normal of the point: interpolated, or turned by the normal map in the frame (T, B, N) of unit N
+/// and T and B = cross(N, T) w, which is not made orthogonal; turned over where seen from behind.
 template <class Real>
 Triple<Real> shading_normal(const Material& m, const ShadingPoint<Real>& p) {
   const Triple<Real> n = normalized(inputs_at(p, shading_input::normal));
   Triple<Real> result = n;
   if (m.normal_texture.texture >= 0) {
-    const Triple<Real> t = inputs_at(p, shading_input::tangent);
-    const Triple<Real> b = cross(n, t) * Real(p.handedness);
+    const Triple<Real> t = normalized(inputs_at(p, shading_input::tangent));
+    const Triple<Real> b = cross(n, t) * p.inputs[shading_input::handedness];
     const Triple<Real> map = inputs_at(p, shading_input::normal_texture);
     const Real scale{double(m.normal_scale)};
     const Real x = (Real(2.0) * map.x - Real(1.0)) * scale;

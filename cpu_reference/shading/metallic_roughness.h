@@ -16,22 +16,22 @@ namespace parity::cpu {
 namespace shading_input {
 constexpr std::size_t position = 0;            ///< 3, m, world
 constexpr std::size_t normal = 3;              ///< 3, world, any length, as interpolated
-constexpr std::size_t tangent = 6;             ///< 3, world, as interpolated
-constexpr std::size_t color = 9;               ///< 4, vertex colour, linear RGBA
-constexpr std::size_t base_texture = 13;       ///< 4, linear RGBA
-constexpr std::size_t roughness_texture = 17;  ///< G
-constexpr std::size_t metallic_texture = 18;   ///< B
-constexpr std::size_t normal_texture = 19;     ///< 3, 0 to 1
-constexpr std::size_t occlusion_texture = 22;  ///< R
-constexpr std::size_t emission_texture = 23;   ///< 3, linear RGB
-constexpr std::size_t count = 26;
+constexpr std::size_t tangent = 6;             ///< 3, world, any length, as interpolated
+constexpr std::size_t handedness = 9;          ///< of the tangent frame, as interpolated
+constexpr std::size_t color = 10;              ///< 4, vertex colour, linear RGBA
+constexpr std::size_t base_texture = 14;       ///< 4, linear RGBA
+constexpr std::size_t roughness_texture = 18;  ///< G
+constexpr std::size_t metallic_texture = 19;   ///< B
+constexpr std::size_t normal_texture = 20;     ///< 3, 0 to 1
+constexpr std::size_t occlusion_texture = 23;  ///< R
+constexpr std::size_t emission_texture = 24;   ///< 3, linear RGB
+constexpr std::size_t count = 27;
 }  // namespace shading_input
 
 template <class Real>
 struct ShadingPoint {
   std::array<Real, shading_input::count> inputs{};
-  double handedness = 1;  ///< w of the tangent: +-1
-  bool back = false;      ///< seen from behind: the normal turns over
+  bool back = false;  ///< seen from behind: the normal turns over
 };
 
 /// What lights the scene and from where it is seen, in double.
