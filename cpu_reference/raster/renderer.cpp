@@ -19,10 +19,10 @@ void check(const Frame& frame) {
   if (o.width < 1 || o.height < 1 || o.width > 16384 || o.height > 16384)
     throw std::invalid_argument("cpu::render: size is " + std::to_string(o.width) + "x" +
                                 std::to_string(o.height) + ", sides must be 1 to 16384");
-  if (o.depth == DepthMode::logarithmic &&
-      (frame.orthographic || !(frame.far > frame.near) || !(frame.near > 0)))
-    throw std::invalid_argument(
-        "cpu::render: logarithmic depth needs a perspective camera with a finite far plane");
+  if (o.depth == DepthMode::logarithmic && (!(frame.far > frame.near) || !(frame.near > 0)))
+    throw std::invalid_argument("cpu::render: logarithmic depth from " +
+                                std::to_string(frame.near) + " to " + std::to_string(frame.far) +
+                                ", must be from above 0 to a finite far plane beyond");
 }
 
 /// Seconds since the last call, by name.

@@ -34,7 +34,7 @@ struct Rendered {
 /// @param scene     what `frame` was made of; materials, indices and images checked by the loader.
 /// @param progress  called with the finished part, 0 to 1, never decreasing; may be empty.
 /// @throws std::invalid_argument  a size or sample count out of range, more than 2^31 - 1 elements,
-///                                logarithmic depth without a finite far plane or orthographic.
+///                                logarithmic depth without near > 0 and a finite far plane.
 ///
 /// Source: notes 1.1-1.7, 6.1, 6.3; glTF 2.0, 3.9; Vulkan 1.3, "Rasterization".
 Rendered render(const Scene& scene, const Frame& frame, const RenderOptions& options = {},
