@@ -632,6 +632,7 @@ TEST(CpuRenderer, RendersAnEmptySceneAsBackground) {
 TEST(CpuRenderer, RefusesLogarithmicDepthWithoutAFarPlane) {
   const Stage stage;
   Frame frame = stage.frame(5, 1, DepthMode::logarithmic);
+  frame.far = 0;
   EXPECT_THROW(cpu::render(stage.scene, frame), std::invalid_argument);
 }
 
