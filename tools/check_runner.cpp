@@ -56,10 +56,10 @@ const char* outcome_name(CheckResult::Outcome outcome) {
   return "";
 }
 
-json run_one(const Check& check, gpu::Context& context, const CheckRunOptions& options) {
+json run_one(const Check& check, gpu::Context* context, const CheckRunOptions& options) {
   std::optional<std::span<const double>> problem;
   if (options.problem) problem = std::span<const double>(*options.problem);
-  const CheckResult result = run_check(check, &context, problem);
+  const CheckResult result = run_check(check, context, problem);
   json methods = json::array();
   for (const MethodTrial& method : result.trial.methods) methods.push_back(to_json(method));
   json message = {{"outcome", outcome_name(result.outcome)},
@@ -68,7 +68,9 @@ json run_one(const Check& check, gpu::Context& context, const CheckRunOptions& o
                   {"methods", methods}};
   if (result.outcome != CheckResult::Outcome::failed) return message;
   try {
-    message["replay"] = write_replay(options.folder, check, result, context.info().name).string();
+    message["replay"] = write_replay(options.folder, check, result,
+                                     context == nullptr ? "none" : context->info().name)
+                            .string();
   } catch (const OutputError& error) {
     message["message"] = result.message + "; its files were not written: " + error.what();
   }
@@ -77,13 +79,17 @@ json run_one(const Check& check, gpu::Context& context, const CheckRunOptions& o
 
 void work(int pipe, const std::vector<Check>& checks, std::size_t first,
           const CheckRunOptions& options) {
-  gpu::Context context({.device = options.device,
-                        .validation = options.validation,
-                        .guard = gpu::Guard::zones,
-                        .timeout_seconds = options.timeout_seconds});
-  send(pipe, {{"device", context.info().name + ", " + context.info().driver}});
+  std::optional<gpu::Context> context;
+  if (!options.host_only)
+    context.emplace(gpu::ContextOptions{.device = options.device,
+                                        .validation = options.validation,
+                                        .guard = gpu::Guard::zones,
+                                        .timeout_seconds = options.timeout_seconds});
+  const std::string device =
+      context ? context->info().name + ", " + context->info().driver : std::string("no device");
+  send(pipe, {{"device", device}});
   for (std::size_t i = first; i < checks.size(); ++i)
-    send(pipe, run_one(checks[i], context, options));
+    send(pipe, run_one(checks[i], context ? &*context : nullptr, options));
 }
 
 /// Never returns; leaves without running the parent's destructors.

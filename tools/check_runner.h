@@ -12,7 +12,8 @@
 namespace parity::tools {
 
 struct CheckRunOptions {
-  std::string device;  ///< see gpu::ContextOptions
+  std::string device;      ///< see gpu::ContextOptions
+  bool host_only = false;  ///< no device: its methods are skipped
   bool validation = true;
   double timeout_seconds = 120;                ///< for one check, and for starting the device
   std::filesystem::path folder;                ///< failures are written here

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "tools/xml.h"
+
 namespace parity::tools {
 namespace {
 
@@ -34,25 +36,6 @@ std::string junit_xml(const std::vector<CheckReport>& reports) {
       std::ranges::count(reports, "skipped", &CheckReport::outcome), seconds);
   for (const CheckReport& report : reports) xml += test_case(report);
   return xml + "</testsuite>\n";
-}
-
-std::string xml_escaped(const std::string& text) {
-  std::string escaped;
-  for (char c : text) {
-    if (c == '<')
-      escaped += "&lt;";
-    else if (c == '>')
-      escaped += "&gt;";
-    else if (c == '&')
-      escaped += "&amp;";
-    else if (c == '"')
-      escaped += "&quot;";
-    else if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t')
-      escaped += '?';
-    else
-      escaped += c;
-  }
-  return escaped;
 }
 
 }  // namespace parity::tools

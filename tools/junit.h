@@ -10,7 +10,4 @@ namespace parity::tools {
 /// A JUnit report: one test case a check, its stage as the class name.
 std::string junit_xml(const std::vector<CheckReport>& reports);
 
-/// Text with <, >, &, quotes and control characters replaced, fit for XML.
-std::string xml_escaped(const std::string& text);
-
 }  // namespace parity::tools

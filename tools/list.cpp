@@ -41,9 +41,10 @@ void print(const Stage& stage) {
   std::printf("%s\n   %s\n   %s; checklist %s\n", stage.name.c_str(), stage.title.c_str(),
               stage.source.c_str(), rows.empty() ? "-" : rows.c_str());
   for (const Axis& axis : stage.axes)
-    std::printf("   %s: %s to %s %s, standard %s\n", axis.name.c_str(),
+    std::printf("   %s: %s to %s%s, standard %s\n", axis.name.c_str(),
                 short_number(axis.low).c_str(), short_number(axis.high).c_str(),
-                axis.unit == "1" ? "" : axis.unit.c_str(), short_number(axis.standard).c_str());
+                axis.unit == "1" ? "" : (" " + axis.unit).c_str(),
+                short_number(axis.standard).c_str());
   std::string sides;
   for (const Method& method : stage.methods) sides += (sides.empty() ? "" : ", ") + method.label();
   std::printf("   sides: %s\n   tolerance %s: %s\n", sides.c_str(),

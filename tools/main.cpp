@@ -34,6 +34,9 @@ int main(int argc, char** argv) {
   parity::tools::add_render_verb(app, exit_code);
   parity::tools::add_list_verb(app, exit_code);
   parity::tools::add_check_verb(app, exit_code);
+  parity::tools::add_chart_verb(app, exit_code);
+  parity::tools::add_map_verb(app, exit_code);
+  parity::tools::add_faults_verb(app, exit_code);
   parity::tools::add_diff_verb(app, exit_code);
   parity::tools::add_mesh_verb(app, exit_code);
   try {

@@ -12,6 +12,9 @@ void add_devices_verb(CLI::App& app, int& exit_code);
 void add_render_verb(CLI::App& app, int& exit_code);
 void add_list_verb(CLI::App& app, int& exit_code);
 void add_check_verb(CLI::App& app, int& exit_code);
+void add_chart_verb(CLI::App& app, int& exit_code);
+void add_map_verb(CLI::App& app, int& exit_code);
+void add_faults_verb(CLI::App& app, int& exit_code);
 void add_diff_verb(CLI::App& app, int& exit_code);
 void add_mesh_verb(CLI::App& app, int& exit_code);
 
