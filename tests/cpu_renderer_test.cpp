@@ -2,218 +2,15 @@
 #include <omp.h>
 
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
-#include <numbers>
 #include <random>
 
-#include "cpu_reference/raster/renderer.h"
+#include "tests/small_scene.h"
 
 namespace parity {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-/// A double stored as float: half an ulp.
-constexpr double stored = 6e-8;
-
-/// A scene seen by an orthographic camera at the origin that looks along -z at [-1, 1]^2.
-struct Stage {
-  Scene scene;
-
-  Stage() {
-    Camera camera;
-    camera.orthographic = true;
-    camera.near = 0.5;
-    camera.far = 2.5;
-    scene.cameras.push_back(camera);
-    Node node;
-    node.camera = 0;
-    scene.nodes.push_back(node);
-  }
-
-  int add_material(const Material& material) {
-    scene.materials.push_back(material);
-    return int(scene.materials.size()) - 1;
-  }
-
-  void add(Primitive primitive, const dmat4& place = dmat4(1.0)) {
-    scene.meshes.push_back({"", {std::move(primitive)}});
-    Node node;
-    node.mesh = int(scene.meshes.size()) - 1;
-    node.parent_from_node = place;
-    scene.nodes.push_back(node);
-  }
-
-  void add_light(const Light& light, const dmat4& place = dmat4(1.0)) {
-    scene.lights.push_back(light);
-    Node node;
-    node.light = int(scene.lights.size()) - 1;
-    node.parent_from_node = place;
-    scene.nodes.push_back(node);
-  }
-
-  void add_texture(const Grid<u8vec4>& image, const Sampler& sampler) {
-    scene.images.push_back(image);
-    scene.textures.push_back({int(scene.images.size()) - 1, sampler});
-  }
-
-  Frame frame(int size = 8, int samples = 1, DepthMode depth = DepthMode::reverse_z) const {
-    FrameOptions options;
-    options.width = size;
-    options.height = size;
-    options.samples = samples;
-    options.depth = depth;
-    Frame f = make_frame(scene, options);
-    if (scene.lights.empty()) {  // the default light is none of these tests' business
-      f.lights.clear();
-      f.ambient = vec3(0.0f);
-    }
-    return f;
-  }
-
-  Picture render(int size = 8, int samples = 1) const {
-    cpu::RenderOptions options;
-    options.elements = true;
-    return cpu::render(scene, frame(size, samples), options).picture;
-  }
-};
-
-//  0---1    counter-clockwise seen from +z; uv (0, 0) top left
-//  | / |
-//  3---2
-Primitive quad(int material, float z = -1.0f, float half = 1.0f) {
-  Primitive p;
-  p.material = material;
-  p.positions = {{-half, half, z}, {half, half, z}, {half, -half, z}, {-half, -half, z}};
-  p.normals.assign(4, vec3(0, 0, 1));
-  p.tangents.assign(4, vec4(1, 0, 0, 1));
-  p.uvs = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
-  p.indices = {0, 3, 1, 1, 3, 2};
-  return p;
-}
-
-Material unlit(vec4 color) {
-  Material m;
-  m.unlit = true;
-  m.base_color = color;
-  return m;
-}
-
-/// Light that travels along -z, turned by `angle` around y.
-dmat4 turned(double angle) { return glm::rotate(dmat4(1.0), angle, dvec3(0, 1, 0)); }
-
-void expect_color(const vec4& got, const dvec4& want, double tolerance) {
-  for (int i = 0; i < 4; ++i) EXPECT_NEAR(got[i], want[i], tolerance) << "channel " << i;
-}
-
-TEST(CpuRenderer, GivesTheAnalyticRadianceOfARoughQuadUnderADirectionalLight) {
-  const double angle = 0.6;
-  Stage stage;
-  Material m;
-  m.metallic = 0;
-  m.base_color = {0.8f, 0.4f, 0.2f, 1.0f};
-  stage.add(quad(stage.add_material(m)));
-  Light light;
-  light.kind = LightKind::directional;
-  light.intensity = 3;
-  light.color = {1.0f, 0.5f, 0.25f};
-  stage.add_light(light, turned(angle));
-  const Picture picture = stage.render();
-  // Roughness 1: D = 1 / pi, V = 1 / (2 (n.l + n.v)); half vector at half the angle.
-  const double n_dot_l = std::cos(angle);
-  const double fresnel = 0.04 + 0.96 * std::pow(1 - std::cos(angle / 2), 5);
-  for (int c = 0; c < 3; ++c) {
-    const double f =
-        (1 - fresnel) * double(m.base_color[c]) / pi + fresnel / pi * 0.5 / (n_dot_l + 1);
-    EXPECT_NEAR(picture.color(3, 4)[c], f * 3 * double(light.color[c]) * n_dot_l, stored * 2);
-  }
-  EXPECT_EQ(picture.color(3, 4).w, 1.0f);
-}
-
-TEST(CpuRenderer, ShowsAWhiteDielectricAsItsUniformEnvironment) {
-  for (const float roughness : {0.0f, 0.3f, 1.0f}) {
-    Stage stage;
-    Material m;
-    m.metallic = 0;
-    m.roughness = roughness;
-    stage.add(quad(stage.add_material(m)));
-    Frame frame = stage.frame();
-    frame.ambient = {0.25f, 0.5f, 2.0f};
-    const Picture picture = cpu::render(stage.scene, frame).picture;
-    expect_color(picture.color(4, 4), {0.25, 0.5, 2.0, 1.0}, stored * 2);
-  }
-}
-
-TEST(CpuRenderer, OcclusionDimsTheEnvironmentByItsStrength) {
-  Stage stage;
-  stage.add_texture(Grid<u8vec4>(1, 1, u8vec4(51, 255, 255, 255)), {});
-  Material m;
-  m.metallic = 0;
-  m.occlusion_texture.texture = 0;
-  m.occlusion_strength = 0.5f;
-  stage.add(quad(stage.add_material(m)));
-  Frame frame = stage.frame();
-  frame.ambient = vec3(1.0f);
-  const Picture picture = cpu::render(stage.scene, frame).picture;
-  EXPECT_NEAR(picture.color(4, 4).x, 1 + 0.5 * (0.2 - 1), stored);
-}
-
-TEST(CpuRenderer, PointLightFallsOffWithTheSquareOfTheDistanceInsideItsRange) {
-  Stage stage;
-  Material m;
-  m.metallic = 0;
-  stage.add(quad(stage.add_material(m)));
-  Light light;
-  light.intensity = 5;
-  light.range = 2;
-  stage.add_light(light, glm::translate(dmat4(1.0), dvec3(0.125, 0.125, 0.5)));
-  // The centre of pixel (4, 3) stands straight below the light at distance 1.5.
-  const Picture picture = stage.render();
-  const double f = 0.96 / pi + 0.04 / pi * 0.25;
-  const double irradiance = 5 / 2.25 * (1 - std::pow(1.5 / 2, 4));
-  EXPECT_NEAR(picture.color(4, 3).x, f * irradiance, stored);
-  light.range = 1.25;
-  Stage dark = stage;
-  dark.scene.lights[0] = light;
-  EXPECT_EQ(dark.render().color(4, 3).x, 0.0f);
-}
-
-TEST(CpuRenderer, SpotLightFadesBetweenItsCones) {
-  Stage stage;
-  Material m;
-  m.metallic = 0;
-  stage.add(quad(stage.add_material(m)));
-  Light light;
-  light.kind = LightKind::spot;
-  light.inner_cone_angle = 0.2f;
-  light.outer_cone_angle = 0.6f;
-  const dmat4 above = glm::translate(dmat4(1.0), dvec3(0.125, 0.125, 0.0));
-  const auto middle = [&](double tilt) {
-    Stage s = stage;
-    s.add_light(light, above * turned(tilt));
-    return double(s.render().color(4, 3).x);
-  };
-  const double f = 0.96 / pi + 0.04 / pi * 0.25;
-  EXPECT_NEAR(middle(0.1), f, stored);
-  EXPECT_EQ(middle(0.7), 0.0);
-  const double inner = std::cos(double(0.2f)), outer = std::cos(double(0.6f));
-  const double part = (std::cos(0.4) - outer) / (inner - outer);
-  EXPECT_NEAR(middle(0.4), f * part * part, stored);
-}
-
-TEST(CpuRenderer, AddsEmissionAndLeavesUnlitMaterialsAlone) {
-  Stage stage;
-  Material glowing;
-  glowing.base_color = vec4(0, 0, 0, 1);
-  glowing.emission = {3, 2, 1};
-  stage.add(quad(stage.add_material(glowing)));
-  stage.add(quad(stage.add_material(unlit({0.1f, 0.2f, 0.3f, 1})), -0.9f, 0.5f));
-  const Picture picture = stage.render();
-  expect_color(picture.color(0, 0), {3, 2, 1, 1}, 0);
-  expect_color(picture.color(4, 4), {0.1f, 0.2f, 0.3f, 1}, 0);
-}
-
 TEST(CpuRenderer, AlphaMaskKeepsWhatReachesTheCutoff) {
-  Stage stage;
+  SmallScene stage;
   stage.add(quad(stage.add_material(unlit({0, 0, 1, 1})), -1.5f));
   Material m = unlit({1, 0, 0, 0.5f});
   m.alpha_mode = AlphaMode::mask;
@@ -226,7 +23,7 @@ TEST(CpuRenderer, AlphaMaskKeepsWhatReachesTheCutoff) {
 
 TEST(CpuRenderer, BlendsTwoLayersFarToNearWhateverTheirOrder) {
   for (const bool near_first : {false, true}) {
-    Stage stage;
+    SmallScene stage;
     Material red = unlit({1, 0, 0, 0.5f}), green = unlit({0, 1, 0, 0.25f});
     red.alpha_mode = green.alpha_mode = AlphaMode::blend;
     const int far = stage.add_material(red), near = stage.add_material(green);
@@ -243,7 +40,7 @@ TEST(CpuRenderer, BlendsTwoLayersFarToNearWhateverTheirOrder) {
 }
 
 TEST(CpuRenderer, HidesBlendedLayersBehindOpaqueOnes) {
-  Stage stage;
+  SmallScene stage;
   Material red = unlit({1, 0, 0, 0.5f});
   red.alpha_mode = AlphaMode::blend;
   stage.add(quad(stage.add_material(red), -2.0f));
@@ -255,7 +52,7 @@ TEST(CpuRenderer, CullsTheBackOfSingleSidedMaterialsAndOfMirroredOnes) {
   const dmat4 mirror = glm::scale(dmat4(1.0), dvec3(-1, 1, 1));
   const dmat4 around = glm::translate(dmat4(1.0), dvec3(0, 0, -2)) * turned(pi);
   const auto seen = [](const dmat4& place) {
-    Stage stage;
+    SmallScene stage;
     stage.add(quad(stage.add_material(unlit(vec4(1)))), place);
     return stage.render().color(4, 4).x == 1.0f;
   };
@@ -265,68 +62,9 @@ TEST(CpuRenderer, CullsTheBackOfSingleSidedMaterialsAndOfMirroredOnes) {
   EXPECT_FALSE(seen(around * mirror));
 }
 
-TEST(CpuRenderer, LightsTheBackOfDoubleSidedMaterialsAsTheFront) {
-  Light light;
-  light.kind = LightKind::directional;
-  const auto lit = [&](const dmat4& place, bool mapped) {
-    Stage stage;
-    Material m;
-    m.metallic = 0;
-    m.double_sided = true;
-    if (mapped) {
-      stage.add_texture(Grid<u8vec4>(1, 1, u8vec4(200, 128, 255, 255)), {});
-      m.normal_texture.texture = 0;
-    }
-    stage.add(quad(stage.add_material(m)), place);
-    stage.add_light(light);
-    return stage.render().color(4, 4).x;
-  };
-  const dmat4 around = glm::translate(dmat4(1.0), dvec3(0, 0, -2)) * turned(pi);
-  for (const bool mapped : {false, true}) {
-    EXPECT_GT(lit(dmat4(1.0), mapped), 0.1f);
-    EXPECT_NEAR(lit(around, mapped), lit(dmat4(1.0), mapped), stored);
-  }
-}
-
-TEST(CpuRenderer, NormalMapTurnsTheNormalTowardTheTangent) {
-  // Texel (255, 128 - 0.5, 255) / 255 with scale s is (s, ~0, 1): a turn by atan(s) toward +x.
-  const double angle = 0.5;
-  Stage stage;
-  stage.add_texture(Grid<u8vec4>(1, 1, u8vec4(255, 128, 255, 255)), {});
-  Material m;
-  m.metallic = 0;
-  m.normal_texture.texture = 0;
-  m.normal_scale = float(std::tan(angle));
-  stage.add(quad(stage.add_material(m)));
-  Light light;
-  light.kind = LightKind::directional;
-  stage.add_light(light, turned(angle));
-  const dvec3 n = glm::normalize(dvec3(std::tan(angle), std::tan(angle) / 255.0, 1.0));
-  const dvec3 l{std::sin(angle), 0, std::cos(angle)}, v{0, 0, 1};
-  const dvec3 h = glm::normalize(l + v);
-  const double fresnel = 0.04 + 0.96 * std::pow(1 - glm::dot(v, h), 5);
-  const double n_dot_l = glm::dot(n, l);
-  const double want =
-      ((1 - fresnel) / pi + fresnel / pi * 0.5 / (n_dot_l + glm::dot(n, v))) * n_dot_l;
-  EXPECT_NEAR(stage.render().color(4, 4).x, want, stored * 2);
-}
-
-TEST(CpuRenderer, ReadsTexelsOfBaseColourFromSrgbAndTheRestAsTheyAre) {
-  Stage stage;
-  stage.add_texture(Grid<u8vec4>(1, 1, u8vec4(188, 0, 255, 51)), {});
-  Material m = unlit(vec4(1));
-  m.base_color_texture.texture = 0;
-  m.alpha_mode = AlphaMode::blend;
-  stage.add(quad(stage.add_material(m)));
-  const vec4 got = stage.render().color(4, 4);
-  // Alpha 51 / 255 = 0.2; code 188 is 0.502886 (IEC 61966-2-1).
-  const double code = std::pow((188 / 255.0 + 0.055) / 1.055, 2.4);
-  expect_color(got, {0.2 * code, 0, 0.2, 0.2}, stored);
-}
-
 TEST(CpuRenderer, TakesTheMipLevelOfThePixelsFootprint) {
   // A checkerboard of single texels, 16 a pixel: level 4 of 7 is 8x8, one texel a pixel, all grey.
-  Stage stage;
+  SmallScene stage;
   Grid<u8vec4> board{128, 128};
   for (int y = 0; y < 128; ++y)
     for (int x = 0; x < 128; ++x) board(x, y) = u8vec4(u8vec4::value_type((x + y) % 2 * 255));
@@ -342,87 +80,9 @@ TEST(CpuRenderer, TakesTheMipLevelOfThePixelsFootprint) {
   for (const vec4& c : p.color) EXPECT_NEAR(c.x, 128 / 255.0, stored);
 }
 
-TEST(CpuRenderer, ReadsRoughnessFromGreenAndMetallicFromBlue) {
-  Stage stage;
-  stage.add_texture(Grid<u8vec4>(1, 1, u8vec4(7, 128, 51, 255)), {});
-  Material m;
-  m.base_color = {0.5f, 0.25f, 1, 1};
-  m.metallic = 0.5f;
-  m.metallic_roughness_texture.texture = 0;
-  stage.add(quad(stage.add_material(m)));
-  Light light;
-  light.kind = LightKind::directional;
-  stage.add_light(light);
-  const vec4 got = stage.render().color(4, 4);
-  // Straight on all cosines are 1: F = F0, D = 1 / (pi alpha^2), V = 1 / 4.
-  const double metallic = 0.5 * 51 / 255.0, alpha = std::pow(128 / 255.0, 2);
-  for (int c = 0; c < 3; ++c) {
-    const double base = double(m.base_color[c]), f0 = 0.04 * (1 - metallic) + base * metallic;
-    const double want = (1 - f0) * base * (1 - metallic) / pi + f0 / (4 * pi * alpha * alpha);
-    EXPECT_NEAR(got[c], want, stored) << c;
-  }
-}
-
-TEST(CpuRenderer, MultipliesEmissionByItsTexture) {
-  Stage stage;
-  stage.add_texture(Grid<u8vec4>(1, 1, u8vec4(255, 128, 0, 255)), {});
-  Material m;
-  m.base_color = {0, 0, 0, 1};
-  m.emission = {2, 2, 2};
-  m.emission_texture.texture = 0;
-  stage.add(quad(stage.add_material(m)));
-  // Code 128 is 0.2158605 (IEC 61966-2-1).
-  expect_color(stage.render().color(4, 4), {2, 2 * 0.21586050011389926, 0, 1}, stored);
-}
-
-TEST(CpuRenderer, TransformsTheTextureCoordinatesOfTheSetThatAUseNames) {
-  Stage stage;
-  Grid<u8vec4> image{2, 2, u8vec4(0, 0, 0, 255)};
-  image(1, 0) = u8vec4(255);
-  Sampler nearest;
-  nearest.mag = Filter::nearest;
-  stage.add_texture(image, nearest);
-  Material m = unlit(vec4(1));
-  m.base_color_texture.texture = 0;
-  m.base_color_texture.uv_set = 1;
-  Primitive p = quad(stage.add_material(m));
-  p.uvs.push_back(p.uvs[0]);
-  p.uvs[0].assign(4, vec2(0.0f));
-  stage.add(p);
-  const auto white = [&](int x, int y) { return stage.render().color(x, y).x == 1.0f; };
-  EXPECT_TRUE(white(6, 1) && !white(1, 1) && !white(1, 6) && !white(6, 6));
-  // (u, v) -> (v, u): the white texel moves to the lower left.
-  stage.scene.materials[0].base_color_texture.texture_from_uv =
-      mat3(vec3(0, 1, 0), vec3(1, 0, 0), vec3(0, 0, 1));
-  EXPECT_TRUE(white(1, 6) && !white(1, 1) && !white(6, 1) && !white(6, 6));
-  // u + 1/2: to the left.
-  stage.scene.materials[0].base_color_texture.texture_from_uv =
-      mat3(vec3(1, 0, 0), vec3(0, 1, 0), vec3(0.5f, 0, 1));
-  EXPECT_TRUE(white(1, 1) && !white(6, 1) && !white(1, 6) && !white(6, 6));
-}
-
-TEST(CpuRenderer, MirroringKeepsTheUpOfANormalMap) {
-  const auto lit = [](const dmat4& place) {
-    Stage stage;
-    stage.add_texture(Grid<u8vec4>(1, 1, u8vec4(128, 255, 255, 255)), {});
-    Material m;
-    m.metallic = 0;
-    m.normal_texture.texture = 0;
-    stage.add(quad(stage.add_material(m)), place);
-    Light light;
-    light.kind = LightKind::directional;
-    stage.add_light(light, glm::rotate(dmat4(1.0), -1.2, dvec3(1, 0, 0)));
-    return stage.render().color(4, 4).x;
-  };
-  // The light comes from above, so a normal turned down would lie in the dark.
-  EXPECT_GT(lit(dmat4(1.0)), 0.2f);
-  // The map's x is 1/255, not 0: mirroring turns the normal by twice that.
-  EXPECT_NEAR(lit(glm::scale(dmat4(1.0), dvec3(-1, 1, 1))), lit(dmat4(1.0)), 0.01);
-}
-
 TEST(CpuRenderer, TakesTheLongerSideOfAnUprightFootprint) {
   // Rows alternate in pairs: 4 texels a pixel down, 1/2 across; level 2 averages 4 rows to grey.
-  Stage stage;
+  SmallScene stage;
   Grid<u8vec4> rows{4, 32};
   for (int y = 0; y < 32; ++y)
     for (int x = 0; x < 4; ++x) rows(x, y) = u8vec4(u8vec4::value_type(y / 2 % 2 * 255));
@@ -446,7 +106,7 @@ TEST(CpuRenderer, EveryDepthModeStoresItsFormula) {
   Node node;
   node.camera = 0;
   scene.nodes.push_back(node);
-  Stage stage;
+  SmallScene stage;
   stage.scene = scene;
   stage.add(quad(stage.add_material(unlit(vec4(1))), -2.0f, 8.0f));
   // z = 2: standard f (z - n) / (z (f - n)); reverse 1 - that; log2(4) / log2(16).
@@ -461,7 +121,7 @@ TEST(CpuRenderer, EveryDepthModeStoresItsFormula) {
 }
 
 TEST(CpuRenderer, FillsTheScreenEquallyWithAnyNumberOfSamples) {
-  Stage stage;
+  SmallScene stage;
   Material m;
   m.metallic = 0;
   m.roughness = 0.4f;
@@ -476,7 +136,7 @@ TEST(CpuRenderer, FillsTheScreenEquallyWithAnyNumberOfSamples) {
 }
 
 TEST(CpuRenderer, AveragesTheSamplesOfAHalfCoveredPixel) {
-  Stage stage;
+  SmallScene stage;
   Primitive p = quad(stage.add_material(unlit(vec4(1))));
   for (vec3& v : p.positions) v.x = v.x * 0.5f + 0.125f;  // right border at x = 5/8: mid-pixel 6
   stage.add(p);
@@ -485,7 +145,7 @@ TEST(CpuRenderer, AveragesTheSamplesOfAHalfCoveredPixel) {
 }
 
 TEST(CpuRenderer, DrawsPointsAndLinesOnePixelWide) {
-  Stage stage;
+  SmallScene stage;
   Primitive points;
   points.topology = Topology::points;
   points.material = stage.add_material(unlit({0.5f, 1, 1, 1}));
@@ -515,7 +175,7 @@ TEST(CpuRenderer, DrawsPointsAndLinesOnePixelWide) {
 TEST(CpuRenderer, FillsEveryRowThatAQuadReaches) {
   constexpr int size = 40;
   for (int rows = 1; rows <= size; ++rows) {
-    Stage stage;
+    SmallScene stage;
     Primitive p = quad(stage.add_material(unlit(vec4(1))));
     p.positions[2].y = p.positions[3].y = 1.0f - 2.0f * float(rows) / size;
     stage.add(p);
@@ -554,7 +214,7 @@ TEST(CpuRenderer, InterpolatesInPerspective) {
   Node node;
   node.camera = 0;
   scene.nodes.push_back(node);
-  Stage stage;
+  SmallScene stage;
   stage.scene = scene;
   Primitive floor = quad(stage.add_material(unlit(vec4(1))));
   floor.positions = {{-50, -1, -21}, {50, -1, -21}, {50, -1, 1}, {-50, -1, 1}};
@@ -570,8 +230,8 @@ TEST(CpuRenderer, InterpolatesInPerspective) {
 }
 
 /// A heap of coloured, partly transparent triangles.
-Stage heap() {
-  Stage stage;
+SmallScene heap() {
+  SmallScene stage;
   Material m;
   m.double_sided = true;
   const int solid = stage.add_material(m);
@@ -596,7 +256,7 @@ Stage heap() {
 }
 
 TEST(CpuRenderer, GivesTheSameBitsWithAnyNumberOfThreads) {
-  const Stage stage = heap();
+  const SmallScene stage = heap();
   const int before = omp_get_max_threads();
   omp_set_num_threads(1);
   const Picture one = stage.render(131, 4);
@@ -611,7 +271,7 @@ TEST(CpuRenderer, GivesTheSameBitsWithAnyNumberOfThreads) {
 }
 
 TEST(CpuRenderer, ReportsProgressUpToOne) {
-  const Stage stage = heap();
+  const SmallScene stage = heap();
   double last = 0;
   cpu::render(stage.scene, stage.frame(100), {}, [&](double part) {
     EXPECT_GT(part, last);
@@ -621,7 +281,7 @@ TEST(CpuRenderer, ReportsProgressUpToOne) {
 }
 
 TEST(CpuRenderer, RendersAnEmptySceneAsBackground) {
-  Stage stage;
+  SmallScene stage;
   Frame frame = stage.frame(5);
   frame.options.background = {1, 0.5f, 0.25f, 0.5f};
   const Picture p = cpu::render(stage.scene, frame).picture;
@@ -630,7 +290,7 @@ TEST(CpuRenderer, RendersAnEmptySceneAsBackground) {
 }
 
 TEST(CpuRenderer, RefusesLogarithmicDepthWithoutAFarPlane) {
-  const Stage stage;
+  const SmallScene stage;
   Frame frame = stage.frame(5, 1, DepthMode::logarithmic);
   frame.far = 0;
   EXPECT_THROW(cpu::render(stage.scene, frame), std::invalid_argument);
