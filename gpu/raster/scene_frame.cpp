@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 
 namespace parity::gpu {
@@ -94,7 +93,7 @@ BlendedPrimitives::BlendedPrimitives(const Scene& scene) {
     }
 }
 
-std::vector<uvec2> BlendedPrimitives::order(const Frame& frame) const {
+std::vector<uvec2> BlendedPrimitives::order(Context& context, const Frame& frame) {
   std::vector<uvec2> elements;
   std::vector<float> depths;
   for (std::size_t draw = 0; draw < frame.draws.size(); ++draw) {
@@ -110,19 +109,24 @@ std::vector<uvec2> BlendedPrimitives::order(const Frame& frame) const {
       depths.push_back(std::isnan(depth) ? 0.0f : depth);  // what cannot be seen may stand anywhere
     }
   }
-  std::vector<std::size_t> ranks(elements.size());
-  std::iota(ranks.begin(), ranks.end(), std::size_t{0});
-  std::stable_sort(ranks.begin(), ranks.end(),
-                   [&](std::size_t a, std::size_t b) { return depths[a] > depths[b]; });
+  if (elements.empty()) return {};
+  if (!sorter_ || capacity_ < elements.size()) {
+    sorter_.emplace(context, std::uint32_t(elements.size()));
+    capacity_ = elements.size();
+  }
+  const Buffer<float> keys(context, depths);
+  context.run(
+      [&](Commands& commands) { sorter_->record(commands, keys, std::uint32_t(elements.size())); });
   std::vector<uvec2> sorted;
   sorted.reserve(elements.size());
-  for (const std::size_t rank : ranks) sorted.push_back(elements[rank]);
+  for (const std::uint32_t rank : sorter_->order().read(0, elements.size()))
+    sorted.push_back(elements[rank]);
   return sorted;
 }
 
-SceneFrame::SceneFrame(Context& context, const SceneBuffers& scene,
-                       const BlendedPrimitives& blended, const Frame& frame)
-    : order_(blended.order(frame)) {
+SceneFrame::SceneFrame(Context& context, const SceneBuffers& scene, BlendedPrimitives& blended,
+                       const Frame& frame)
+    : order_(blended.order(context, frame)) {
   std::uint32_t first_element = 0;
   for (const Draw& draw : frame.draws) {
     const SceneBuffers::PrimitiveSlices& slices = scene.primitive(draw.mesh, draw.primitive);

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "geometry/frame.h"
 #include "gpu/core/buffer.h"
+#include "gpu/raster/painter.h"
 #include "gpu/raster/scene_buffers.h"
 
 namespace parity::gpu {
@@ -16,8 +18,8 @@ class BlendedPrimitives {
   explicit BlendedPrimitives(const Scene& scene);
 
   /// Elements of all blended draws, farthest centroid first, equal ones in the order of the scene:
-  /// draw and first index of each.
-  std::vector<uvec2> order(const Frame& frame) const;
+  /// draw and first index of each. Sorted on the device.
+  std::vector<uvec2> order(Context& context, const Frame& frame);
 
  private:
   struct Elements {
@@ -26,13 +28,15 @@ class BlendedPrimitives {
     std::vector<std::uint32_t> indices;
   };
   std::map<std::pair<int, int>, Elements> elements_;  ///< by mesh and primitive
+  std::optional<PainterOrder> sorter_;
+  std::size_t capacity_ = 0;  ///< of the sorter
 };
 
 /// A frame on the device: what all its shaders read.
 class SceneFrame {
  public:
   /// @throws std::invalid_argument  logarithmic depth without a far plane.
-  SceneFrame(Context& context, const SceneBuffers& scene, const BlendedPrimitives& blended,
+  SceneFrame(Context& context, const SceneBuffers& scene, BlendedPrimitives& blended,
              const Frame& frame);
 
   const SceneArgs& args() const { return args_; }
