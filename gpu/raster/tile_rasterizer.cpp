@@ -1,5 +1,6 @@
 #include "gpu/raster/tile_rasterizer.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <stdexcept>
@@ -35,7 +36,8 @@ const TileRasterizerOptions& checked(const TileRasterizerOptions& options) {
 
 /// Samples in the registers of one thread: few where threads are many.
 std::uint32_t held_samples(const Context& context, int samples) {
-  return context.info().type == "cpu" ? 8 : std::uint32_t(samples);
+  return context.info().type == "cpu" ? std::min(32u, 8 * std::uint32_t(samples))
+                                      : std::uint32_t(samples);
 }
 
 std::vector<Specialization> raster_constants(const Context& context,

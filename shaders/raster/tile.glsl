@@ -37,10 +37,9 @@ bool tile_covers(TileTriangle t, ivec2 at) {
   return (e.x | e.y | e.z) >= 0;
 }
 
-/// The same, and false for unseen triangles.
-bool tile_shows(TileTriangle t, ivec2 at) {
-  const ivec3 e = tile_edges(t, at);
-  return (e.x | e.y | e.z | int(t.element)) >= 0;
+/// Inside all edges and not unseen.
+bool is_shown(ivec3 edges, uint element) {
+  return (edges.x | edges.y | edges.z | int(element)) >= 0;
 }
 
 float tile_depth(TileTriangle t, ivec2 at) {
