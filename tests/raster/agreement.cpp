@@ -18,15 +18,12 @@ double color_distance(const vec4& got, const vec4& want, const vec4& bound) {
   return worst;
 }
 
-/// Our sampler is software of full precision: no 8-bit weights, no approximate level of detail.
-/// log2 is 3 ULP or 2^-21 off, a float coordinate 2^-24 of up to 2^4 repeats.
+/// Our shaders filter textures themselves, in single precision.
 cpu::DeviceLimits limits_of(const gpu::DeviceInfo& device) {
-  return {.sub_pixel_bits = device.subpixel_bits,
-          .sub_texel_bits = 18,
-          .lod_low = -0x1p-20,
-          .lod_high = 0x1p-20,
-          .srgb_decode_codes = 255 * 16 * 0x1p-23,
-          .half_color = false};
+  cpu::DeviceLimits limits;
+  limits.sub_pixel_bits = device.subpixel_bits;
+  limits.half_color = false;
+  return limits;
 }
 
 }  // namespace
