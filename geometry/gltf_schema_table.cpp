@@ -53,6 +53,7 @@ constexpr double largest_uv_set = 15.0;
 Field flag(std::string name) { return {.name = std::move(name), .kind = Field::Kind::boolean}; }
 Field number(std::string name) { return {.name = std::move(name), .kind = Field::Kind::number}; }
 Field text(std::string name) { return {.name = std::move(name), .kind = Field::Kind::text}; }
+/// What the parser keeps in 32 bits: all of sparse accessors and extensions, too.
 Field integer(std::string name) {
   return {.name = std::move(name), .kind = Field::Kind::integer, .low = 0, .high = largest_int};
 }
@@ -91,9 +92,11 @@ Field unit(std::string name) { return number(std::move(name)).at_least(0).at_mos
 
 const Shape empty_shape{};
 
-const Shape sparse_indices_shape{index("bufferView", "bufferViews").required(), size("byteOffset"),
+const Shape sparse_indices_shape{index("bufferView", "bufferViews").required(),
+                                 integer("byteOffset"),
                                  one_of("componentType", std::vector{5121, 5123, 5125}).required()};
-const Shape sparse_values_shape{index("bufferView", "bufferViews").required(), size("byteOffset")};
+const Shape sparse_values_shape{index("bufferView", "bufferViews").required(),
+                                integer("byteOffset")};
 const Shape sparse_shape{integer("count").at_least(1).required(),
                          object("indices", sparse_indices_shape).required(),
                          object("values", sparse_values_shape).required()};
@@ -125,8 +128,8 @@ const Shape asset_shape{text("version").required(), text("minVersion"), text("ge
 
 const Shape meshopt_view_shape{
     index("buffer", "buffers").required(),
-    size("byteOffset"),
-    size("byteLength").at_least(1).required(),
+    integer("byteOffset"),
+    integer("byteLength").at_least(1).required(),
     integer("byteStride").at_least(1).at_most(256).required(),
     integer("count").at_least(1).required(),
     one_of("mode", std::vector<std::string>{"ATTRIBUTES", "TRIANGLES", "INDICES"}).required(),

@@ -94,6 +94,22 @@ TEST(SceneIo, RefusesAFileWithMoreSparseElementsThanBytes) {
   EXPECT_NE(refusal(builder).find("sparse elements"), std::string::npos);
 }
 
+TEST(SceneIo, RefusesOffsetsThatWrapTo32Bits) {
+  const double wraps_to_0 = 4294967296;
+  GltfBuilder sparse = plain_square();
+  const int indices = sparse.view(std::vector<std::uint8_t>{1});
+  sparse.root["accessors"][0]["sparse"] = {
+      {"count", 1},
+      {"indices", {{"bufferView", indices}, {"componentType", 5121}, {"byteOffset", wraps_to_0}}},
+      {"values", {{"bufferView", 0}}}};
+  EXPECT_NE(refusal(sparse).find("indices.byteOffset is 4294967296"), std::string::npos);
+  GltfBuilder compressed = plain_square();
+  compressed.root["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = {
+      {"buffer", 0}, {"byteOffset", wraps_to_0}, {"byteLength", 48}, {"byteStride", 12},
+      {"count", 4},  {"mode", "ATTRIBUTES"}};
+  EXPECT_NE(refusal(compressed).find("byteOffset is 4294967296"), std::string::npos);
+}
+
 TEST(SceneIo, ChecksIndicesOfMeshesThatAreNotShown) {
   GltfBuilder builder = square_with_indices({0, 1, 7}, 4);
   builder.root["nodes"][0].erase("mesh");
