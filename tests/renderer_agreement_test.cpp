@@ -26,7 +26,7 @@ std::vector<std::string> scene_files() {
 }
 
 std::string test_name(const testing::TestParamInfo<std::string>& info) {
-  std::string name = fs::path(info.param).stem().string();
+  std::string name = info.param;  // with folder and ending: Box.glb is not Box/Box.gltf
   std::replace_if(
       name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); },
       '_');
