@@ -65,6 +65,7 @@ Grid<vec4> hardware_blend(Context& context, const std::vector<Grid<vec4>>& layer
   const Buffer<vec4> texels = upload(context, layers, "gpu::hardware_blend");
   const std::size_t pixels = layers[0].size();
   const auto width = std::uint32_t(layers[0].width());
+  const auto height = std::uint32_t(layers[0].height());
   const RasterPipeline<FullScreenArgs> pipeline(
       context, shaders::raster_full_screen_vert, shaders::raster_layer_frag,
       {.colors = {format}, .blends = {blend_of(mode)}, .depth = {}, .specializations = {}});
@@ -78,9 +79,9 @@ Grid<vec4> hardware_blend(Context& context, const std::vector<Grid<vec4>>& layer
   context.run([&](Commands& commands) {
     commands.render({.colors = {cleared(image)}, .depth = {}}, [&](RenderPass& pass) {
       for (std::size_t layer = 0; layer < layers.size(); ++layer)
-        pass.draw(pipeline, {texels.ref(layer * pixels), width, 0}, 3);
+        pass.draw(pipeline, {texels.ref(layer * pixels), width, height}, 3);
     });
-    commands.dispatch(fetch, {std::uint32_t(pixels)}, {result, width, 0}, images);
+    commands.dispatch(fetch, {std::uint32_t(pixels)}, {result, width, height}, images);
   });
   return grid_of(layers[0], result);
 }

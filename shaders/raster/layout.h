@@ -244,7 +244,7 @@ struct BlendArgs {
 struct FullScreenArgs {
   REF(vec4) texels;
   uint width;
-  uint padding;
+  uint height;
 };
 
 struct LineArgs {
