@@ -55,54 +55,69 @@ bool is_in_front(Samples at, uint s, float depth, uint element) {
   return depth_mode == reverse_z ? depth > at.depth[s] : depth < at.depth[s];
 }
 
+void load_samples(uint index, out Samples at) {
+  for (uint s = 0u; s < samples; ++s) {
+    at.color[s] = args.background;
+    at.depth[s] = args.depths.at[index * samples + s];
+    at.element[s] = args.elements.at[index * samples + s];
+  }
+}
+
+// Samples that show an element, one bit each.
+uint samples_of(Samples at, uint element) {
+  uint mask = 0u;
+  for (uint s = 0u; s < samples; ++s) mask |= at.element[s] == element ? 1u << s : 0u;
+  return mask;
+}
+
+// Samples at which a piece is in front, and its depths there.
+uint samples_behind(Samples at, SceneArgs scene, TileTriangle t, out float depth[samples]) {
+  uint mask = 0u;
+  for (uint s = 0u; s < samples; ++s) {
+    const ivec2 place = tile_step(gl_LocalInvocationID.xy, sample_place(samples, s));
+    depth[s] = stored_depth(scene, tile_depth(t, place));
+    const bool seen = tile_covers(t, place) && is_in_front(at, s, depth[s], t.element & ~element_unseen);
+    mask |= seen ? 1u << s : 0u;
+  }
+  return mask;
+}
+
 void main() {
   const uvec2 pixel = gl_GlobalInvocationID.xy;
   if (pixel.x >= args.width || pixel.y >= args.height) return;
   SceneArgs scene = args.scene.at[0];
   const uint index = pixel.y * args.width + pixel.x;
   Samples at;
-  uint pending = 0u;  // samples whose opaque triangle is not shaded yet
-  for (uint s = 0u; s < samples; ++s) {
-    at.color[s] = args.background;
-    at.depth[s] = args.depths.at[index * samples + s];
-    at.element[s] = args.elements.at[index * samples + s];
-    if (at.element[s] != 0u) pending |= 1u << s;
-  }
+  load_samples(index, at);
+  uint pending = ((1u << samples) - 1u) & ~samples_of(at, 0u);  // opaque and not shaded yet
   const uint tile = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
   uint cursor = args.begins.at[tile];
   const uint end = args.has_unseen != 0u ? args.begins.at[tile + 1u] : cursor;
   [[dont_unroll]] while (pending != 0u || cursor < end) {
-    uint item;
-    uint seen = 0u;  // samples at which it is in front
-    float depth[samples];
     const bool opaque = pending != 0u;
+    uint element;
+    uint seen;
+    float depth[samples];
     if (opaque) {
-      const uint element = at.element[findLSB(pending)];
-      for (uint s = 0u; s < samples; ++s) seen |= at.element[s] == element ? 1u << s : 0u;
+      element = at.element[findLSB(pending)];
+      seen = samples_of(at, element);
       pending &= ~seen;
-      item = element - 1u;
     } else {
       const TileTriangle t = args.tile_triangles.at[cursor++];
-      const uint element = t.element & ~element_unseen;
-      if (t.element == element) continue;
-      item = element - 1u;
-      for (uint s = 0u; s < samples; ++s) {
-        const ivec2 step = tile_step(gl_LocalInvocationID.xy, sample_place(samples, s));
-        depth[s] = stored_depth(scene, tile_depth(t, step));
-        if (tile_covers(t, step) && is_in_front(at, s, depth[s], element)) seen |= 1u << s;
-      }
-      if (seen == 0u) continue;
+      element = t.element & ~element_unseen;
+      seen = t.element == element ? 0u : samples_behind(at, scene, t, depth);
     }
-    const vec4 result = shade_item(scene, item, pixel);
+    if (seen == 0u) continue;
+    const vec4 result = shade_item(scene, element - 1u, pixel);
     if (result.a < 0.0) continue;
-    const bool blended = !opaque && is_blended(scene, item);
+    const bool blended = !opaque && is_blended(scene, element - 1u);
     for (uint s = 0u; s < samples; ++s) {
       if ((seen & (1u << s)) == 0u) continue;
       at.color[s] = blended ? vec4(result.rgb * result.a, result.a) + at.color[s] * (1.0 - result.a)
                             : result;
       if (opaque || blended) continue;
       at.depth[s] = depth[s];
-      at.element[s] = item + 1u;
+      at.element[s] = element;
     }
   }
   vec4 sum = vec4(0.0);
