@@ -158,6 +158,7 @@ Frame make_frame(const Scene& scene, const FrameOptions& options) {
     }
   }
   if (frame.lights.empty()) add_default_light(frame, placed.world_from_view);
+  if (options.environment) frame.ambient = *options.environment;
   return frame;
 }
 

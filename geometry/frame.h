@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct FrameOptions {
   std::string camera;  ///< name or index of a camera of the scene; empty: the first, else framed
   DepthMode depth = DepthMode::reverse_z;
   vec4 background{0.0f, 0.0f, 0.0f, 0.0f};  ///< linear RGB and alpha
+  /// Radiance of a uniform environment, linear RGB, W/(m^2 sr). None: 0 where the scene has lights,
+  /// else enough to see by, together with a key light.
+  std::optional<vec3> environment;
 };
 
 /// One primitive in one place.

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cpu_reference/raster/renderer.h"
 #include "cpu_reference/raster/srgb.h"
@@ -34,6 +35,7 @@ struct RenderArguments {
   std::string background = "#2b2f36";
   std::string depth = "reverse";
   std::string metrics;
+  std::string environment;
   double exposure = 0;
   int msaa = 4;
   int threads = 0;
@@ -85,6 +87,21 @@ vec4 parse_background(const std::string& text) {
   const bool finite = std::isfinite(color.x) && std::isfinite(color.y) && std::isfinite(color.z);
   if (count < 3 || count > 4 || !finite || !(color.w >= 0 && color.w <= 1))
     throw bad_option("background", text, expected);
+  return color;
+}
+
+/// "l" or "r,g,b", linear and not negative.
+std::optional<vec3> parse_environment(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  vec3 color{0.0f};
+  char rest = 0;
+  const int count = std::sscanf(text.c_str(), "%f,%f,%f%c", &color.x, &color.y, &color.z, &rest);
+  if (count == 1 && text.find(',') == std::string::npos) color = vec3(color.x);
+  const bool right =
+      (count == 1 && text.find_first_not_of("0123456789.eE+-") == std::string::npos) || count == 3;
+  for (int i = 0; i < 3; ++i)
+    if (!right || !(color[i] >= 0) || !std::isfinite(color[i]))
+      throw bad_option("environment", text, "a radiance 'l' or 'r,g,b', linear and not negative");
   return color;
 }
 
@@ -200,7 +217,8 @@ int render(const RenderArguments& arguments) {
                        .samples = arguments.msaa,
                        .camera = arguments.camera,
                        .depth = parse_depth(arguments.depth),
-                       .background = parse_background(arguments.background)};
+                       .background = parse_background(arguments.background),
+                       .environment = parse_environment(arguments.environment)};
   const double start = seconds_now();
   const Scene scene = load_scene(arguments.input);
   const double load_seconds = seconds_now() - start;
@@ -257,6 +275,9 @@ void add_render_verb(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   verb->add_option("--background", a->background, "#rrggbb[aa], linear r,g,b[,a], or transparent")
       ->capture_default_str();
+  verb->add_option(
+      "--environment", a->environment,
+      "Radiance of a uniform environment, linear: l or r,g,b (default: 0 if the scene has lights)");
   verb->add_option("--depth", a->depth, "Depth buffer")
       ->check(CLI::IsMember({"reverse", "standard", "logarithmic"}))
       ->capture_default_str();
