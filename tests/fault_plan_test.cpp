@@ -8,7 +8,7 @@
 namespace parity::tools {
 namespace {
 
-const Fault fault{"sign", "a.cpp", "x + y", "x - y", "*"};
+const Fault fault{"sign", "a.cpp", "x + y", "x - y", "*", ""};
 
 TEST(Faults, ReplaceOnePlace) { EXPECT_EQ(planted(fault, "f(x + y);"), "f(x - y);"); }
 
@@ -21,8 +21,9 @@ TEST(Faults, NamesOfRedTestsAreReadOnce) {
   const std::string output =
       "[       OK ] A.Passes (0 ms)\n[  FAILED  ] B.Fails (1 ms)\n"
       "[  FAILED  ] C/D.Fails/0, where GetParam() = 3 (1 ms)\n[  FAILED  ] 2 tests, listed below:\n"
-      "[  FAILED  ] B.Fails\n";
-  EXPECT_EQ(failed_tests(output), (std::vector<std::string>{"B.Fails", "C/D.Fails/0"}));
+      "[  FAILED  ] B.Fails\nok    e/f  1 ms\nFAIL  g/h/standard  2 ms\n";
+  EXPECT_EQ(failed_tests(output),
+            (std::vector<std::string>{"B.Fails", "C/D.Fails/0", "g/h/standard"}));
 }
 
 std::string read(const std::filesystem::path& path) {

@@ -15,7 +15,15 @@ constexpr std::size_t max_file_bytes = std::size_t{1} << 24;
 
 Fault fault_of(const nlohmann::json& json) {
   const auto get = [&](const char* key) { return json.at(key).get<std::string>(); };
-  return {get("name"), get("file"), get("text"), get("replacement"), get("tests")};
+  Fault fault{.name = get("name"),
+              .file = get("file"),
+              .text = get("text"),
+              .replacement = get("replacement"),
+              .tests = json.value("tests", std::string()),
+              .checks = json.value("checks", std::string())};
+  if (fault.tests.empty() == fault.checks.empty())
+    throw std::invalid_argument("fault '" + fault.name + "' needs either tests or checks");
+  return fault;
 }
 
 }  // namespace
@@ -31,6 +39,8 @@ std::vector<Fault> read_faults(const std::filesystem::path& file) {
         throw InputError(file.string(), "fault '" + fault.name + "' occurs twice");
       faults.push_back(std::move(fault));
     }
+  } catch (const std::invalid_argument& error) {
+    throw InputError(file.string(), error.what());
   } catch (const nlohmann::json::exception& error) {
     throw InputError(file.string(), error.what());
   }
@@ -47,16 +57,16 @@ std::string planted(const Fault& fault, const std::string& text) {
 }
 
 std::vector<std::string> failed_tests(const std::string& output) {
-  static const std::string mark = "[  FAILED  ] ";
   std::vector<std::string> names;
   std::istringstream lines(output);
-  for (std::string line; std::getline(lines, line);) {
-    if (!line.starts_with(mark)) continue;
-    const std::string name =
-        line.substr(mark.size(), line.find_first_of(" ,", mark.size()) - mark.size());
-    const bool is_test = name.find('.') != std::string::npos;
-    if (is_test && std::ranges::count(names, name) == 0) names.push_back(name);
-  }
+  for (std::string line; std::getline(lines, line);)
+    for (const std::string mark : {"[  FAILED  ] ", "FAIL  "}) {
+      if (!line.starts_with(mark)) continue;
+      const std::string name =
+          line.substr(mark.size(), line.find_first_of(" ,", mark.size()) - mark.size());
+      const bool is_test = name.find_first_of("./") != std::string::npos;
+      if (is_test && std::ranges::count(names, name) == 0) names.push_back(name);
+    }
   return names;
 }
 

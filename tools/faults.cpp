@@ -8,6 +8,8 @@
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <span>
 
 #include "geometry/input_error.h"
 #include "geometry/output_error.h"
@@ -72,15 +74,24 @@ class Nursery {
                " -G Ninja -DCMAKE_BUILD_TYPE=Release") == 0;
   }
 
-  bool compile() {
+  /// Builds what the tests of these faults run in.
+  bool compile(std::span<const Fault> faults) {
+    std::string targets;
+    if (std::ranges::any_of(faults, [](const Fault& f) { return !f.tests.empty(); }))
+      targets += " parity_tests";
+    if (std::ranges::any_of(faults, [](const Fault& f) { return !f.checks.empty(); }))
+      targets += " parity";
     const std::string jobs = jobs_ > 0 ? " -j " + std::to_string(jobs_) : "";
-    return run("cmake --build " + quoted(build()) + " --target parity_tests" + jobs) == 0;
+    return run("cmake --build " + quoted(build()) + jobs + " --target" + targets) == 0;
   }
 
-  /// 0 if all tests of the filter pass.
-  int test(const std::string& filter) {
-    return run("timeout 300 " + quoted(build() + "/bin/parity_tests") +
-               " --gtest_filter=" + quoted(filter));
+  /// 0 if all tests of the fault pass.
+  int test(const Fault& fault) {
+    if (!fault.tests.empty())
+      return run("timeout 300 " + quoted(build() + "/bin/parity_tests") +
+                 " --gtest_filter=" + quoted(fault.tests));
+    return run("timeout 300 " + quoted(build() + "/bin/parity") + " check --timeout 60 -o " +
+               quoted((log_.parent_path() / "failures").string()) + " " + fault.checks);
   }
 
   std::string output() const { return read_text(log_); }
@@ -140,10 +151,10 @@ Outcome try_fault(Nursery& nursery, const Fault& fault) {
   Outcome outcome{.fault = fault, .detail = {}};
   const std::string original = read_text(nursery.file(fault.file));
   write_text(nursery.file(fault.file), planted(fault, original));
-  if (!nursery.compile()) {
+  if (!nursery.compile({&fault, 1})) {
     outcome.detail = "does not build";
   } else {
-    const int status = nursery.test(fault.tests);
+    const int status = nursery.test(fault);
     const std::vector<std::string> red = failed_tests(nursery.output());
     outcome.caught = status != 0;
     outcome.detail = red.empty()
@@ -156,14 +167,14 @@ Outcome try_fault(Nursery& nursery, const Fault& fault) {
 }
 
 void require_green(Nursery& nursery, const std::vector<Fault>& faults) {
-  std::string filter;
-  for (const Fault& fault : faults) filter += (filter.empty() ? "" : ":") + fault.tests;
-  if (!nursery.configure() || !nursery.compile())
+  if (!nursery.configure() || !nursery.compile(faults))
     throw std::runtime_error("faults: the source does not build without a fault:\n" +
                              nursery.output());
-  if (nursery.test(filter) != 0)
-    throw std::runtime_error("faults: red without a fault: " +
-                             joined(failed_tests(nursery.output()), 5));
+  std::set<std::string> done;
+  for (const Fault& fault : faults)
+    if (done.insert(fault.tests + fault.checks).second && nursery.test(fault) != 0)
+      throw std::runtime_error("faults: red without a fault: " +
+                               joined(failed_tests(nursery.output()), 5));
 }
 
 void print(const std::vector<Outcome>& outcomes) {
