@@ -1,4 +1,5 @@
 #include <png.h>
+#include <stb/stb_image_write.h>
 
 #include <cstring>
 #include <stdexcept>
@@ -117,16 +118,14 @@ Grid<u16vec4> decode_png_16(Bytes bytes, const std::string& name) {
 }
 
 std::vector<std::byte> encode_png(const Grid<u8vec4>& texels) {
-  png_image image = {};
-  image.version = PNG_IMAGE_VERSION;
-  image.width = png_uint_32(texels.width());
-  image.height = png_uint_32(texels.height());
-  image.format = PNG_FORMAT_RGBA;
-  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
-  std::vector<std::byte> bytes(size);
-  if (!png_image_write_to_memory(&image, bytes.data(), &size, 0, texels.data(), 0, nullptr))
-    throw std::runtime_error(std::string("PNG: ") + image.message);
-  bytes.resize(size);
+  std::vector<std::byte> bytes;
+  const auto append = [](void* context, void* data, int size) {
+    auto& out = *static_cast<std::vector<std::byte>*>(context);
+    const auto* begin = static_cast<const std::byte*>(data);
+    out.insert(out.end(), begin, begin + size);
+  };
+  if (!stbi_write_png_to_func(append, &bytes, texels.width(), texels.height(), 4, texels.data(), 0))
+    throw std::runtime_error("PNG: out of memory");
   return bytes;
 }
 
