@@ -131,6 +131,23 @@ const Registration chart = register_chart({
     .pareto = true,
 });
 
+/// Counts a clockwise triangle (y down) on the pixels whose centre it holds.
+void add_centres_inside(const Points& c, int side, std::vector<double>& counts) {
+  const dvec2 low = glm::max(glm::min(glm::min(c[0], c[1]), c[2]), dvec2(0));
+  const dvec2 high = glm::min(glm::max(glm::max(c[0], c[1]), c[2]), dvec2(side - 1));
+  for (int y = int(low.y); y <= int(high.y); ++y)
+    for (int x = int(low.x); x <= int(high.x); ++x) {
+      const dvec2 p{x + 0.5, y + 0.5};
+      bool inside = true;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const dvec2 a = c[k];
+        const dvec2 b = c[(k + 1) % 3];
+        inside = inside && (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x) >= 0;
+      }
+      counts[std::size_t(y * side + x)] += inside;
+    }
+}
+
 /// Fraction of covered samples that change when vertices snap to 2^-bits px.
 double changed_samples(gpu::Context& context, double bits, double size) {
   constexpr int side = 256;
@@ -154,24 +171,13 @@ double changed_samples(gpu::Context& context, double bits, double size) {
     c = vec4(dvec4(glm::round(pixel * steps) / steps / (side / 2.0) - 1.0, 0.5, 1));
   }
   const Coverage got = gpu::edge_coverage(context, coarse, Snapping::mesa);
+  std::vector<double> want(got.count.size(), 0.0);
+  for (const uvec3& t : fine.triangles) add_centres_inside(window_corners(fine, t), side, want);
   double changed = 0;
   double covered = 0;
-  for (std::size_t i = 0; i < got.count.size(); ++i) {
-    const dvec2 sample{double(i % side) + 0.5, double(i / side) + 0.5};
-    double want = 0;
-    for (const uvec3& t : fine.triangles) {
-      const Points c = window_corners(fine, t);
-      if (std::abs(sample.x - c[0].x) > 2 * size || std::abs(sample.y - c[0].y) > 2 * size)
-        continue;
-      bool inside = true;
-      for (int k = 0; k < 3; ++k) {
-        const dvec2 a = c[std::size_t(k)], b = c[std::size_t((k + 1) % 3)];
-        inside = inside && (b.x - a.x) * (sample.y - a.y) - (b.y - a.y) * (sample.x - a.x) >= 0;
-      }
-      want += inside;
-    }
-    covered += want;
-    changed += std::abs(double(got.count[i]) - want);
+  for (std::size_t i = 0; i < want.size(); ++i) {
+    covered += want[i];
+    changed += std::abs(double(got.count[i]) - want[i]);
   }
   return covered > 0 ? changed / covered : 1;
 }

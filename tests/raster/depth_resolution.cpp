@@ -101,6 +101,8 @@ Map fighting_map(DepthMode mode) {
       .value_label = "wrong pixels",
       .logarithmic = false,
       .border = 0.01,
+      .columns = 16,
+      .rows = 12,
       .value = [mode](gpu::Context& context, double distance,
                       double near) { return fraction_fighting(context, mode, distance, near); },
   };
