@@ -14,6 +14,13 @@ std::string known_axes(const std::vector<std::pair<std::string, double>>& values
   return names.empty() ? "it has none" : "it has " + names;
 }
 
+std::vector<double> checked_values(const Axis& axis) {
+  if (!axis.each) return {axis.low, axis.high};
+  std::vector<double> values;
+  for (double value = axis.low; value <= axis.high; ++value) values.push_back(value);
+  return values;
+}
+
 }  // namespace
 
 Setting::Setting(std::span<const Axis> axes) {
@@ -49,12 +56,11 @@ std::string Setting::text() const {
 std::vector<NamedSetting> conformance_settings(std::span<const Axis> axes) {
   std::vector<NamedSetting> settings{{"standard", Setting(axes)}};
   for (const Axis& axis : axes)
-    for (double end : {axis.low, axis.high}) {
-      const std::string name = axis.name + "=" + short_number(end);
-      const bool repeated = end == axis.standard || settings.back().name == name;
-      if (repeated) continue;
+    for (double value : checked_values(axis)) {
+      const std::string name = axis.name + "=" + short_number(value);
+      if (value == axis.standard || settings.back().name == name) continue;
       settings.push_back({name, Setting(axes)});
-      settings.back().setting.set(axis.name, end);
+      settings.back().setting.set(axis.name, value);
     }
   return settings;
 }

@@ -115,6 +115,13 @@ TEST(Setting, ConformanceTakesBothEndsOfEveryAxis) {
   EXPECT_EQ(names, (std::vector<std::string>{"standard", "n=8", "h=0.5", "h=2"}));
 }
 
+TEST(Setting, ConformanceTakesEveryKind) {
+  const std::vector<Axis> axes{{.name = "kind", .low = 0, .high = 3, .standard = 1, .each = true}};
+  std::vector<std::string> names;
+  for (const NamedSetting& named : conformance_settings(axes)) names.push_back(named.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"standard", "kind=0", "kind=2", "kind=3"}));
+}
+
 TEST(Setting, StepsAreEqualInTheLogarithm) {
   const Axis axis{.name = "n", .low = 1, .high = 100, .logarithmic = true, .whole = true};
   EXPECT_EQ(steps_along(axis, 3), (std::vector<double>{1, 10, 100}));

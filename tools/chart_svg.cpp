@@ -82,7 +82,9 @@ bool can_be_drawn(const Canvas& canvas, const Point& point) {
   return std::isfinite(point.x) && std::isfinite(point.y) && x_fits && y_fits;
 }
 
-bool is_device(const Series& series) { return series.name.starts_with("gpu"); }
+bool is_device(const Series& series) {
+  return series.name.starts_with("gpu") || series.name.starts_with("device");
+}
 
 std::string dashes_of(const Series& series) {
   return series.kind == Series::Kind::theory ? "7 5" : "";
@@ -192,7 +194,7 @@ std::vector<std::string> footer_lines(const ChartData& data, const Provenance& p
 
 std::string chart_svg(const Chart& chart, const ChartData& data, const Provenance& provenance) {
   const Area area{.left = 96, .top = 72, .width = plot_width, .height = plot_height};
-  const double width = area.right() + legend_width(chart, data);
+  const double width = std::max(area.right() + legend_width(chart, data), title_width(chart.title));
   const std::vector<std::string> footer = footer_lines(data, provenance, width - 48);
   const double footer_top = area.bottom() + 72;
   const double legend_bottom = area.top + 22.0 * static_cast<double>(data.series.size() + 2);

@@ -9,8 +9,8 @@
 namespace parity::tools {
 
 /// The chart as a picture: series with markers (squares for the device's, whose names begin with
-/// "gpu"), theory dashed, Pareto front, slopes in the legend, settings and provenance below. Values
-/// of 0 on a logarithmic axis stand at its lower edge, marked "0".
+/// "gpu" or "device"), theory dashed, Pareto front, slopes in the legend, settings and provenance
+/// below. Values of 0 on a logarithmic axis stand at its lower edge, marked "0".
 std::string chart_svg(const Chart& chart, const ChartData& data, const Provenance& provenance);
 
 /// Provenance and settings in lines that begin with #, then one line a point:

@@ -13,9 +13,9 @@ double standard_tolerance(const Stage& stage) {
 }
 
 nlohmann::json to_json(const Axis& axis) {
-  return {{"name", axis.name},  {"unit", axis.unit},         {"low", axis.low},
-          {"high", axis.high},  {"standard", axis.standard}, {"logarithmic", axis.logarithmic},
-          {"whole", axis.whole}};
+  return {{"name", axis.name},   {"unit", axis.unit},         {"low", axis.low},
+          {"high", axis.high},   {"standard", axis.standard}, {"logarithmic", axis.logarithmic},
+          {"whole", axis.whole}, {"each", axis.each}};
 }
 
 nlohmann::json to_json(const Stage& stage) {

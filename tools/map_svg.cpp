@@ -141,7 +141,8 @@ std::string map_svg(const Map& map, const MapData& data, const Provenance& prove
   const Area area{.left = 96, .top = 84, .width = plot_width, .height = plot_height};
   const Area bar{.left = area.right() + 34, .top = area.top, .width = 22, .height = area.height};
   const double bar_label = text_width(axis_label(map.value_label, map.value_unit), 13);
-  const double width = bar.left + std::max(bar_label, bar.width + 80) + 20;
+  const double width =
+      std::max(bar.left + std::max(bar_label, bar.width + 80) + 20, title_width(map.title));
   const std::vector<std::string> footer = wrapped(text_of(provenance), 10, width - 48);
   // The legend's lines are known once it is drawn: draw it into a picture of its own first.
   Svg trial(width, 0);

@@ -229,6 +229,8 @@ void draw_axes(Svg& svg, const Area& area, const Scale& x, const Scale& y,
            {.size = 13, .anchor = Anchor::middle, .turned = -90});
 }
 
+double title_width(const std::string& title) { return 48 + 1.15 * text_width(title, 17); }
+
 void draw_title(Svg& svg, const std::string& title, const std::string& subtitle) {
   svg.text(24, 30, title, {.size = 17, .bold = true});
   svg.text(24, 50, subtitle, {.size = 12, .color = "#555"});

@@ -92,6 +92,8 @@ double text_width(const std::string& text, double size);
 void draw_axes(Svg& svg, const Area& area, const Scale& x, const Scale& y,
                const std::string& x_label, const std::string& y_label, bool grid);
 
+/// Width of a picture that has room for its title.
+double title_width(const std::string& title);
 /// Title and subtitle, top left.
 void draw_title(Svg& svg, const std::string& title, const std::string& subtitle);
 /// Settings and provenance in small print, line by line from `top` down.

@@ -47,7 +47,7 @@ Grid<dvec4> widened(const Grid<vec4>& values) {
 }
 
 const std::vector<Axis> axes{
-    {.name = "mode", .low = 0, .high = 2, .standard = 0, .whole = true},
+    {.name = "mode", .low = 0, .high = 2, .standard = 0, .whole = true, .each = true},
     {.name = "layers", .low = 1, .high = 16, .standard = 4, .logarithmic = true, .whole = true},
     {.name = "side", .unit = "px", .low = 1, .high = 131, .standard = 64, .whole = true}};
 

@@ -63,7 +63,7 @@ const Registration registration = register_stage<DepthProblem, DepthImage>({
     .title = "What is in front, by a depth buffer: standard, reverse-Z, logarithmic",
     .source = "notes 1.7; Reed 2015; Vulkan 1.3, Depth Test",
     .rows = {5, 13, 14},
-    .axes = {{.name = "mode", .low = 0, .high = 2, .standard = 1, .whole = true},
+    .axes = {{.name = "mode", .low = 0, .high = 2, .standard = 1, .whole = true, .each = true},
              {.name = "triangles",
               .low = 1,
               .high = 300,

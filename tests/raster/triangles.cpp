@@ -152,7 +152,8 @@ bool is_near_an_edge(const RasterProblem& problem, dvec2 sample) {
 }  // namespace
 
 Axis kind_axis() {
-  return {.name = "kind", .low = 0, .high = kind_count - 1, .standard = 0, .whole = true};
+  return {
+      .name = "kind", .low = 0, .high = kind_count - 1, .standard = 0, .whole = true, .each = true};
 }
 
 Axis samples_axis() {
