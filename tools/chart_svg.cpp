@@ -49,11 +49,10 @@ std::optional<PowerFit> fit_of(const Chart& chart, const Series& series) {
   }
 }
 
+/// A slope is only written where the points lie on a line.
 std::string legend_text(const Chart& chart, const Series& series) {
   const std::optional<PowerFit> fit = fit_of(chart, series);
-  if (!fit) return series.name;
-  if (!std::isfinite(fit->slope_margin))
-    return fmt::format("{}: slope {:.2f}", series.name, fit->slope);
+  if (!fit || !(fit->slope_margin <= 0.5)) return series.name;
   return fmt::format("{}: slope {:.2f} ± {:.2f}", series.name, fit->slope, fit->slope_margin);
 }
 
