@@ -47,7 +47,7 @@ constexpr std::array<Rule, 11> own_rules{{
 constexpr std::array<Rule, 6> library_rules{{
     {R"(geometry/math\.h|tests/.*)", R"(glm/.*)"},
     {R"(gpu/core/(.*\.cpp|vulkan_state\.h))", R"(volk\.h|vulkan/.*)"},
-    {R"(geometry/\w+_io\.(cpp|h)|tests/.*|tools/.*)",
+    {R"((geometry|sim)/\w+_io\.(cpp|h)|tests/.*|tools/.*)",
      R"(tiny_gltf\.h|tiny_obj_loader\.h|stb.*|nlohmann/.*|png\.h|jpeglib\.h|jerror\.h|Imf.*|meshoptimizer\.h|draco/.*|fmt/.*)"},
     {R"(tests/.*)", R"(gtest/.*|gmock/.*|Eigen/.*)"},
     {R"(tools/.*)", R"(CLI/.*)"},
