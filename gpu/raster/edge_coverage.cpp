@@ -41,10 +41,9 @@ class SampleReader {
       return;
     }
     const ImageBinding images[] = {{&count_image, &sampler_}, {&element_image, &sampler_}};
-    commands.dispatch(fetch_, {std::uint32_t(counts.count())},
-                      {counts, elements, std::uint32_t(size.width), std::uint32_t(size.height),
-                       std::uint32_t(size.samples), 0},
-                      images);
+    const auto width = std::uint32_t(size.width), height = std::uint32_t(size.height);
+    commands.dispatch(fetch_, {width, height},
+                      {counts, elements, width, height, std::uint32_t(size.samples), 0}, images);
   }
 
  private:

@@ -59,7 +59,7 @@ const Registration registration = register_stage<InterpolationProblem, Grid<dvec
     .title = "What a vertex says, at a pixel: perspective-correct or affine in the window",
     .source = "notes 1.3, 1.6; Vulkan 1.3, Basic Polygon Rasterization",
     .rows = {4, 12},
-    .axes = {raster_test::kind_axis(),
+    .axes = {raster_test::kind_axis(Kind::behind),
              raster_test::side_axis(),
              {.name = "perspective", .low = 0, .high = 1, .standard = 1, .whole = true}},
     .problem = random_varyings,

@@ -1,6 +1,5 @@
 #include "tests/raster/triangles.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "geometry/random.h"
@@ -20,10 +19,11 @@ class Maker {
     list_.width = list_.height = side;
   }
 
-  void add(const vec2 (&corners)[3], bool perspective) {
+  /// @param ratio  of the largest w to the smallest; 1: no perspective.
+  void add(const vec2 (&corners)[3], float ratio) {
     const auto first = std::uint32_t(list_.clip_positions.size());
     for (const vec2& corner : corners) {
-      const float w = perspective ? random_.uniform(0.5f, 4.0f) : 1.0f;
+      const float w = ratio > 1 ? random_.uniform(4.0f / ratio, 4.0f) : 1.0f;
       list_.clip_positions.push_back(clip_at(corner, side_, w, random_.uniform(0.1f, 0.9f)));
     }
     list_.triangles.push_back({first, first + 1, first + 2});
@@ -38,11 +38,11 @@ class Maker {
     return glm::clamp(glm::round(p * 16.0f), vec2(1.0f), vec2(float(side_) * 16 - 1)) / 16.0f;
   }
 
-  void random_triangle() { add({inside(), inside(), inside()}, true); }
+  void random_triangle() { add({inside(), inside(), inside()}, 8); }
   void sliver() {
     const vec2 a = inside();
     const vec2 b = inside();
-    add({a, b, clamp(a + vec2(random_.uniform(-1, 1), random_.uniform(-1, 1)))}, true);
+    add({a, b, clamp(a + vec2(random_.uniform(-1, 1), random_.uniform(-1, 1)))}, 8);
   }
   void tie() {
     vec2 a = sixteenths(inside());
@@ -50,25 +50,44 @@ class Maker {
     vec2 c = sixteenths(inside());
     if (random_.below(2)) b.y = a.y;
     if (random_.below(2)) c.x = a.x;
-    add({a, b, c}, false);
+    add({a, b, c}, 1);
   }
   void subpixel() {
     const vec2 a = inside();
     const auto near = [&] {
       return clamp(a + vec2(random_.uniform(-0.7f, 0.7f), random_.uniform(-0.7f, 0.7f)));
     };
-    add({a, near(), near()}, true);
+    add({a, near(), near()}, 8);
   }
   void off_screen() {
     const float far = float(side_) * random_.uniform(1.1f, 3.0f);
     const vec2 shift = random_.below(2) ? vec2(random_.below(2) ? far : -far, 0)
                                         : vec2(0, random_.below(2) ? far : -far);
-    add({inside() + shift, inside() + shift, inside() + shift}, true);
+    add({inside() + shift, inside() + shift, inside() + shift}, 8);
   }
   void behind() {
     random_triangle();
     for (std::size_t i = list_.clip_positions.size() - 3; i < list_.clip_positions.size(); ++i)
       list_.clip_positions[i] = -list_.clip_positions[i];
+  }
+
+  void crossing() {
+    const auto corner = [&] {
+      return vec2(random_.uniform(-40, float(side_) + 40), random_.uniform(-40, float(side_) + 40));
+    };
+    add({corner(), corner(), corner()}, 2);
+  }
+
+  /// Corners at distances of -1 to 2 from the eye, the near plane at 0.5.
+  void through() {
+    const auto first = std::uint32_t(list_.clip_positions.size());
+    const float near = 0.5f;
+    for (int k = 0; k < 3; ++k) {
+      const float w = random_.uniform(-1, 2);
+      list_.clip_positions.emplace_back(random_.uniform(-1, 1), random_.uniform(-1, 1), w - near,
+                                        w);
+    }
+    list_.triangles.push_back({first, first + 1, first + 2});
   }
 
   /// Squares of a jittered grid cut in two; the border stays inside the viewport.
@@ -111,6 +130,12 @@ class Maker {
         case Kind::behind:
           behind();
           break;
+        case Kind::crossing:
+          crossing();
+          break;
+        case Kind::through:
+          through();
+          break;
         default:
           random_triangle();
       }
@@ -124,36 +149,11 @@ class Maker {
   TriangleList list_;
 };
 
-/// Distance of a point from a segment, px.
-double distance_to_edge(dvec2 p, dvec2 a, dvec2 b) {
-  const dvec2 along = b - a;
-  const double squared = glm::dot(along, along);
-  const double t = squared > 0 ? std::clamp(glm::dot(p - a, along) / squared, 0.0, 1.0) : 0.0;
-  return glm::length(p - a - t * along);
-}
-
-/// Whether a sample is nearer to an edge of any triangle than a device may move a vertex:
-/// sqrt2 2^-b, and 4 roundings of a coordinate.
-bool is_near_an_edge(const RasterProblem& problem, dvec2 sample) {
-  const TriangleList& list = problem.list;
-  const double reach =
-      std::sqrt(2.0) * std::exp2(-problem.subpixel_bits) + 4 * 0x1p-24 * list.width;
-  const auto window = [&](std::uint32_t v) {
-    const dvec4 c{list.clip_positions[v]};
-    return (dvec2(c) / c.w + 1.0) * 0.5 * dvec2(list.width, list.height);
-  };
-  return std::any_of(list.triangles.begin(), list.triangles.end(), [&](const uvec3& t) {
-    for (int i = 0; i < 3; ++i)
-      if (distance_to_edge(sample, window(t[i]), window(t[(i + 1) % 3])) < reach) return true;
-    return false;
-  });
-}
-
 }  // namespace
 
-Axis kind_axis() {
+Axis kind_axis(Kind last) {
   return {
-      .name = "kind", .low = 0, .high = kind_count - 1, .standard = 0, .whole = true, .each = true};
+      .name = "kind", .low = 0, .high = double(last), .standard = 0, .whole = true, .each = true};
 }
 
 Axis samples_axis() {
@@ -192,23 +192,10 @@ RasterProblem for_device(TriangleList list, const gpu::DeviceInfo& device) {
 RasterProblem make_raster_problem(const Setting& setting, const gpu::DeviceInfo& device) {
   const auto kind = Kind(setting.count("kind"));
   const int samples = 1 << int(std::lround(std::log2(setting.at("samples"))));
-  const int count = kind == Kind::random || kind == Kind::ties ? 40 : 400;
+  const bool large = kind == Kind::random || kind == Kind::ties || kind >= Kind::crossing;
+  const int count = large ? 40 : 400;
   return for_device(make_triangles(kind, setting.count("side"), samples, count, setting.seed),
                     device);
-}
-
-double wrong_samples(const RasterProblem& problem, const Coverage& got, const Coverage& want) {
-  const std::vector<ivec2> places = standard_sample_places(want.samples);
-  double wrong = 0;
-  for (std::size_t i = 0; i < want.count.size(); ++i) {
-    if (got.count[i] == want.count[i] && got.last[i] == want.last[i]) continue;
-    const std::size_t pixel = i / std::size_t(want.samples);
-    const dvec2 corner{double(pixel % std::size_t(want.width)),
-                       double(pixel / std::size_t(want.width))};
-    const dvec2 sample = corner + dvec2(places[i % std::size_t(want.samples)]) / 16.0;
-    if (problem.snapping_is_known || !is_near_an_edge(problem, sample)) ++wrong;
-  }
-  return wrong;
 }
 
 }  // namespace parity::raster_test

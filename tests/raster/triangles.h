@@ -11,9 +11,7 @@
 /// Triangles that rasterisers get wrong, for the records of the raster chapter.
 namespace parity::raster_test {
 
-/// A list of triangles, how the device that is to draw it snaps, and whether that is known. On a
-/// device that we know nothing of, samples nearer to an edge than it may move vertices do not
-/// count.
+/// A list of triangles, how the device that is to draw it snaps, and whether that is known.
 struct RasterProblem {
   TriangleList list;
   Snapping snapping = Snapping::mesa;
@@ -25,7 +23,7 @@ inline auto fields_of(const RasterProblem*) {
                     &RasterProblem::snapping_is_known, &RasterProblem::subpixel_bits};
 }
 
-/// What the triangles of a list are like. All but the last two lie inside the viewport.
+/// What the triangles of a list are like. The first five lie inside the viewport.
 enum class Kind {
   random,      ///< any size, perspective w from 0.5 to 4
   slivers,     ///< a pixel or less across, as long as the picture
@@ -34,11 +32,12 @@ enum class Kind {
   subpixel,    ///< smaller than a pixel
   off_screen,  ///< beside the viewport
   behind,      ///< behind the eye
+  crossing,    ///< up to 40 px out of the viewport: a device may cut them at its border
+  through,     ///< through the near plane: everybody must cut them
 };
-constexpr int kind_count = 7;
 
-/// Axes of most stages here: kind, samples, side of the picture.
-Axis kind_axis();
+/// Axes of most stages here: kind up to a last one, samples, side of the picture.
+Axis kind_axis(Kind last);
 Axis samples_axis();
 Axis side_axis();
 
@@ -52,8 +51,5 @@ RasterProblem make_raster_problem(const Setting& setting, const gpu::DeviceInfo&
 
 /// How a device snaps, and whether we know.
 RasterProblem for_device(TriangleList list, const gpu::DeviceInfo& device);
-
-/// Samples that two coverages disagree on and that count.
-double wrong_samples(const RasterProblem& problem, const Coverage& got, const Coverage& want);
 
 }  // namespace parity::raster_test
