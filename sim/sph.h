@@ -34,9 +34,9 @@ struct SphParameters {
   double artificial_viscosity = 0.1;  ///< alpha of Monaghan 1992
   double viscosity = 0;               ///< m^2/s, kinematic
   bool implicit_viscosity = false;    ///< solve for the viscous velocity instead of stepping
-  double surface_tension = 0;         ///< kappa of Becker & Teschner 2007, m^2/(kg s^2)
+  double surface_tension = 0;         ///< kappa of Becker & Teschner 2007 per volume, 1/s^2
   dvec3 gravity{0, -9.81, 0};         ///< m/s^2
-  double courant = 0.4;    ///< fraction of the stable step that an adaptive step takes, in (0, 1]
+  double courant = 0.5;    ///< fraction of the stable step that an adaptive step takes, in (0, 1]
   double fixed_step = 0;   ///< s; 0: adaptive
   double max_step = 0.01;  ///< s, of an adaptive step
   double density_error = 1e-3;  ///< average compression at which the incompressible solver stops
@@ -107,6 +107,13 @@ SphProblem sph_random_drop(std::uint32_t dimensions, int count, double speed, st
 /// A tank in 2 dimensions with up to three blocks of fluid of random size, place, velocity,
 /// viscosity, surface tension, sound speed, kernel and equation of state.
 SphProblem sph_random_scene(std::uint64_t seed);
+
+/// The neighbours of each particle by number, ascending, without itself: of the fluid, and of the
+/// walls.
+struct SphNeighbourLists {
+  std::vector<std::vector<std::uint32_t>> fluid;
+  std::vector<std::vector<std::uint32_t>> walls;
+};
 
 struct SphMeasures {
   double mass = 0;              ///< kg

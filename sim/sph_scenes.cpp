@@ -80,7 +80,7 @@ SphProblem sph_random_drop(std::uint32_t dimensions, int count, double speed, st
   SphParameters& p = problem.parameters;
   p = parameters_for(dimensions, 1.0 / count, 1);
   p.gravity = dvec3(0);
-  p.surface_tension = 1;
+  p.surface_tension = 10;
   problem.domain = box_of(dimensions, dvec3(-1), dvec3(1));
   const SphBox box = box_of(dimensions, dvec3(-0.5), dvec3(0.5));
   add_fluid(problem, box, dvec3(0));
@@ -110,7 +110,7 @@ SphProblem sph_random_scene(std::uint64_t seed) {
   p.sound_speed *= pick(0.5, 2);
   p.artificial_viscosity = pick(0.02, 0.5);
   p.viscosity = random.below(2) * p.sound_speed * spacing * std::pow(10.0, pick(-4, 0));
-  p.surface_tension = random.below(2) * pick(0, 1) / (p.rest_density * spacing * spacing);
+  p.surface_tension = random.below(2) * pick(0, 1) * earth / spacing;
   p.gravity = earth * dvec3(pick(-0.5, 0.5), pick(-1, 0.2), 0);
   SphProblem problem = tank(p, box_of(2, dvec3(0), sides));
   const std::uint32_t blocks = 1 + random.below(3);

@@ -1,0 +1,138 @@
+#include "gpu/sph/neighbours.h"
+
+#include <algorithm>
+#include <bit>
+#include <string>
+
+#include "gpu/core/error.h"
+#include "gpu/sph/constants.h"
+#include "shaders.h"
+
+namespace parity::gpu {
+namespace {
+
+std::uint32_t cell_count(const SphConstants& constants) {
+  const uvec3 cells = constants.grid.cells;
+  return cells.x * cells.y * cells.z;
+}
+
+std::vector<Specialization> kernel_of(std::uint32_t kernel) { return {{0, kernel}}; }
+
+}  // namespace
+
+std::vector<vec4> with_zero(const std::vector<vec3>& points) {
+  std::vector<vec4> result;
+  result.reserve(points.size());
+  for (const vec3& point : points) result.emplace_back(point, 0.0f);
+  return result;
+}
+
+CellSort::CellSort(Context& context, const SphConstants& constants, std::uint32_t count)
+    : count_(count),
+      cell_count_(cell_count(constants)),
+      key_bits_(std::uint32_t(std::bit_width(cell_count_))),
+      cell_key_(context, shaders::sph_cell_key_comp),
+      cell_start_(context, shaders::sph_cell_start_comp),
+      gather_(context, shaders::sph_gather_comp),
+      sort_(context, count),
+      count_buffer_(context, std::vector<std::uint32_t>{count}),
+      keys_(context, count),
+      ids_(context, count),
+      starts_(context, cell_count_ + 1),
+      sorted_(context, count) {}
+
+void CellSort::record(Commands& commands, BufferRef<SphConstants> constants,
+                      BufferRef<vec4> positions) {
+  if (count_ > 0) {
+    commands.dispatch(cell_key_, {count_},
+                      {.constants = constants,
+                       .positions = positions,
+                       .keys = keys_,
+                       .ids = ids_,
+                       .count = count_});
+    sort_.record(commands, count_buffer_, keys_, ids_, key_bits_);
+  }
+  commands.dispatch(cell_start_, {cell_count_ + 1},
+                    {.keys = keys_, .starts = starts_, .count = count_, .cell_count = cell_count_});
+  if (count_ > 0)
+    commands.dispatch(gather_, {count_},
+                      {.ids = ids_, .from = positions, .to = sorted_, .count = count_});
+}
+
+Neighbours::Neighbours(Context& context, const SphProblem& problem, const SphConstants& constants)
+    : count_(constants.count),
+      constants_(context, std::vector<SphConstants>{constants}),
+      cells_(context, constants, constants.count),
+      boundary_cells_(context, constants, constants.boundary_count),
+      neighbours_(context, shaders::sph_neighbours_comp,
+                  kernel_of(std::uint32_t(problem.parameters.kernel))),
+      boundary_(context, constants.boundary_count),
+      lists_(context, std::size_t(constants.count) * constants.capacity),
+      counts_(context, constants.count) {
+  weigh_boundary(context, problem.boundary, std::uint32_t(problem.parameters.kernel));
+}
+
+void Neighbours::weigh_boundary(Context& context, const std::vector<vec3>& boundary,
+                                std::uint32_t kernel) {
+  const auto count = std::uint32_t(boundary.size());
+  if (count == 0) return;
+  const Kernel<BoundaryVolumeArgs> weigh(context, shaders::sph_boundary_volume_comp,
+                                         kernel_of(kernel));
+  const Buffer<vec4> positions(context, with_zero(boundary));
+  context.run([&](Commands& commands) {
+    boundary_cells_.record(commands, constants_, positions);
+    commands.dispatch(weigh, {count},
+                      {.constants = constants_,
+                       .boundary = boundary_cells_.sorted(),
+                       .starts = boundary_cells_.starts(),
+                       .weighted = boundary_,
+                       .count = count});
+  });
+}
+
+void Neighbours::record(Commands& commands, BufferRef<vec4> positions) {
+  if (count_ == 0) return;
+  cells_.record(commands, constants_, positions);
+  commands.dispatch(neighbours_, {count_},
+                    {.constants = constants_,
+                     .positions = cells_.sorted(),
+                     .starts = cells_.starts(),
+                     .boundary = boundary_,
+                     .boundary_starts = boundary_cells_.starts(),
+                     .lists = lists_,
+                     .counts = counts_,
+                     .count = count_});
+}
+
+SphNeighbourLists sph_neighbours(Context& context, const SphProblem& problem) {
+  const SphConstants constants = sph_constants(problem);
+  Neighbours neighbours(context, problem, constants);
+  const Buffer<vec4> positions(context, with_zero(problem.initial.positions));
+  context.run([&](Commands& commands) { neighbours.record(commands, positions); });
+  const std::vector<std::uint32_t> ids = neighbours.cells().ids().read();
+  const std::vector<std::uint32_t> wall_ids = neighbours.boundary_cells().ids().read();
+  const std::vector<std::uint32_t> lists = neighbours.lists().read();
+  const std::vector<uvec2> counts = neighbours.counts().read();
+  const std::size_t n = ids.size();
+  SphNeighbourLists result{std::vector<std::vector<std::uint32_t>>(n),
+                           std::vector<std::vector<std::uint32_t>>(n)};
+  for (std::size_t i = 0; i < n; ++i) {
+    if (counts[i].y > constants.capacity)
+      throw Error(ErrorKind::other, "sph_neighbours: particle " + std::to_string(ids[i]) + " has " +
+                                        std::to_string(counts[i].y) +
+                                        " neighbours, the lists hold " +
+                                        std::to_string(constants.capacity));
+    for (std::uint32_t k = 0; k < counts[i].y; ++k) {
+      const std::uint32_t j = lists[k * n + i];
+      if (k < counts[i].x)
+        result.fluid[ids[i]].push_back(ids[j]);
+      else
+        result.walls[ids[i]].push_back(wall_ids[j]);
+    }
+    std::ranges::sort(result.fluid[ids[i]]);
+    std::ranges::sort(result.walls[ids[i]]);
+  }
+  return result;
+}
+
+}  // namespace parity::gpu

@@ -1,0 +1,37 @@
+// Accelerations between two particles; each is exactly the negative of its mirror image, so that
+// momentum is kept to the rounding of the sums. Sources: notes 10.4; Monaghan 1992 (pressure,
+// artificial viscosity); Monaghan 2005 (laminar viscosity); Becker & Teschner 2007 (surface
+// tension); Akinci et al. 2012 (walls).
+
+/// Viscous acceleration of i: both viscosities have the same form, the artificial one only between
+/// particles that approach. `weight`: the other's mass over the mean density.
+float viscous_factor(SphConstants c, vec3 d, vec3 dv, float r2, float weight) {
+  precise const float approach = inner_product(dv, d);
+  precise const float strength = approach < 0.0 ? c.laminar + c.artificial : c.laminar;
+  precise const float factor = weight * strength * approach / (r2 + c.softening);
+  return factor;
+}
+
+/// From particle j of the fluid. places.w: density; motions.w: p / rho^2.
+vec3 fluid_acceleration(SphConstants c, vec4 place_i, vec4 motion_i, vec4 place_j, vec4 motion_j) {
+  precise const vec3 d = place_i.xyz - place_j.xyz;
+  precise const vec3 dv = motion_i.xyz - motion_j.xyz;
+  precise const float r2 = squared_length(d);
+  precise const float slope = kernel_slope(r2, c.support, c.kernel_scale);
+  precise const float pressure = c.mass * (motion_i.w + motion_j.w);
+  precise const float weight = 2.0 * c.mass / (place_i.w + place_j.w);
+  precise float along = (viscous_factor(c, d, dv, r2, weight) - pressure) * slope;
+  if (c.tension != 0.0) along -= c.tension * kernel_value(r2, c.support, c.kernel_scale);
+  precise const vec3 result = along * d;
+  return result;
+}
+
+/// From a wall particle at rest; wall.w: rest density times its volume.
+vec3 wall_acceleration(SphConstants c, vec4 place, vec4 motion, vec4 wall) {
+  precise const vec3 d = place.xyz - wall.xyz;
+  precise const float r2 = squared_length(d);
+  precise const float slope = kernel_slope(r2, c.support, c.kernel_scale);
+  precise const float viscous = viscous_factor(c, d, motion.xyz, r2, wall.w / place.w);
+  precise const vec3 result = (viscous - wall.w * motion.w) * slope * d;
+  return result;
+}

@@ -1,0 +1,181 @@
+// What the kernels of particle fluids and their hosts share. Fields only.
+#ifndef PARITY_SPH_LAYOUT_H
+#define PARITY_SPH_LAYOUT_H
+
+#include "../shared.h"
+
+#ifdef __cplusplus
+namespace parity {
+#endif
+
+/// A grid of cells of one support radius, x fastest.
+struct SphGrid {
+  vec3 low;
+  float inverse_cell;  ///< 1/m
+  uvec3 cells;
+  uint reach_z;  ///< cells to look at on either side along z: 0 in 2 dimensions
+};
+REF_TYPE(SphGrid, 4)
+
+/// What a fluid is; constant during a run.
+struct SphConstants {
+  SphGrid grid;
+  vec3 gravity;
+  float support;
+  float kernel_scale;  ///< W(0) of the kernel if its polynomial is 1 there
+  float mass;
+  float rest_density;
+  float sound_speed;
+  float laminar;       ///< 2 (d + 2) nu
+  float artificial;    ///< alpha c h
+  float tension;       ///< kappa times the volume at rest
+  float softening;     ///< 0.01 h^2
+  float wave_rate;     ///< bound of omega / c of sound waves, 1/m
+  float viscous_rate;  ///< bound of the decay rate of the explicit viscosity, 1/s
+  float tension_rate;  ///< bound of omega^2 of the surface tension, 1/s^2
+  float courant;
+  float fixed_step;
+  float max_step;
+  float dimensions;
+  uint tait;   ///< 1: Tait's equation of state, 0: linear
+  uint stiff;  ///< 1: pressure from the equation of state, so sound limits the step
+  uint count;
+  uint boundary_count;
+  uint capacity;  ///< most neighbours of a particle
+};
+REF_TYPE(SphConstants, 4)
+
+/// Time as the sum of two floats, and what the last step was.
+struct SphClock {
+  float time;
+  float time_rest;
+  float step;
+  float max_speed;
+  float max_acceleration;
+  float max_density;
+  uint steps;
+  uint crowded;  ///< particles with more neighbours than the lists hold, over all steps
+};
+REF_TYPE(SphClock, 4)
+
+/// Largest of speed^2, acceleration^2, density; count of crowded particles in w's bits.
+struct SphLimits {
+  float speed;
+  float acceleration;
+  float density;
+  uint crowded;
+};
+REF_TYPE(SphLimits, 4)
+
+struct CellKeyArgs {
+  REF(SphConstants) constants;
+  REF(vec4) positions;
+  REF(uint) keys;
+  REF(uint) ids;
+  uint count;
+  uint padding;
+};
+
+struct CellStartArgs {
+  REF(uint) keys;    ///< sorted
+  REF(uint) starts;  ///< of each cell the number of smaller keys; one more than cells
+  uint count;
+  uint cell_count;
+};
+
+struct GatherArgs {
+  REF(uint) ids;
+  REF(vec4) from;
+  REF(vec4) to;
+  uint count;
+  uint padding;
+};
+
+/// Lists stand column by column: neighbour k of particle i at k * count + i; first the fluid's,
+/// then the walls'.
+struct NeighbourArgs {
+  REF(SphConstants) constants;
+  REF(vec4) positions;  ///< sorted
+  REF(uint) starts;
+  REF(vec4) boundary;  ///< sorted
+  REF(uint) boundary_starts;
+  REF(uint) lists;
+  REF(uvec2) counts;  ///< of fluid neighbours; of all that there are, even those not in the list
+  uint count;
+  uint padding;
+};
+
+struct BoundaryVolumeArgs {
+  REF(SphConstants) constants;
+  REF(vec4) boundary;  ///< sorted
+  REF(uint) starts;
+  REF(vec4) weighted;  ///< w: rest density times volume
+  uint count;
+  uint padding;
+};
+
+struct DensityArgs {
+  REF(SphConstants) constants;
+  REF(vec4) positions;   ///< sorted
+  REF(vec4) velocities;  ///< of the particles by id
+  REF(uint) ids;
+  REF(vec4) boundary;
+  REF(uint) lists;
+  REF(uvec2) counts;
+  REF(vec4) places;   ///< sorted; w: density
+  REF(vec4) motions;  ///< sorted velocities; w: p / rho^2
+  uint count;
+  uint padding;
+};
+
+struct ForceArgs {
+  REF(SphConstants) constants;
+  REF(vec4) places;
+  REF(vec4) motions;
+  REF(vec4) boundary;
+  REF(uint) lists;
+  REF(uvec2) counts;
+  REF(vec4) accelerations;  ///< sorted
+  uint count;
+  uint padding;
+};
+
+struct LimitsArgs {
+  REF(SphConstants) constants;
+  REF(vec4) places;
+  REF(vec4) motions;
+  REF(vec4) accelerations;
+  REF(uvec2) counts;
+  REF(SphLimits) limits;  ///< one for each block
+  uint count;
+  uint block;
+};
+
+struct ClockArgs {
+  REF(SphConstants) constants;
+  REF(SphLimits) limits;
+  REF(SphClock) clock;
+  float until;
+  float until_rest;
+  uint blocks;
+  uint padding;
+};
+
+struct IntegrateArgs {
+  REF(SphConstants) constants;
+  REF(SphClock) clock;
+  REF(uint) ids;
+  REF(vec4) places;
+  REF(vec4) motions;
+  REF(vec4) accelerations;
+  REF(vec4) positions;   ///< by id
+  REF(vec4) velocities;  ///< by id
+  REF(float) densities;  ///< by id
+  uint count;
+  uint padding;
+};
+
+#ifdef __cplusplus
+}  // namespace parity
+#endif
+#endif

@@ -1,0 +1,50 @@
+#version 460
+#include "sph/layout.h"
+#include "sph/cells.glsl"
+#include "sph/kernel.glsl"
+
+// Lists the particles and the wall particles closer than the support, in sorted order; one thread a
+// particle. Counts go on beyond the lists' capacity. Source: Green 2010.
+layout(local_size_x = 64) in;
+layout(scalar, push_constant) uniform Push { NeighbourArgs args; };
+
+void main() {
+  const uint i = gl_GlobalInvocationID.x;
+  if (i >= args.count) return;
+  const SphGrid grid = args.constants.at[0].grid;
+  const float support = args.constants.at[0].support;
+  const uint capacity = args.constants.at[0].capacity;
+  precise const float reach = support * support;
+  const vec3 p = args.positions.at[i].xyz;
+  const ivec3 cell = cell_of(grid, p);
+  const int reach_z = int(grid.reach_z);
+  uint found = 0u;
+  for (int dz = -reach_z; dz <= reach_z; ++dz) {
+    for (int dy = -1; dy <= 1; ++dy) {
+      const uvec2 range = row_range(grid, args.starts, cell, dy, dz);
+      for (uint j = range.x; j < range.y; ++j) {
+        precise const vec3 d = p - args.positions.at[j].xyz;
+        if (squared_length(d) < reach && j != i) {
+          if (found < capacity) args.lists.at[found * args.count + i] = j;
+          ++found;
+        }
+      }
+    }
+  }
+  const uint fluid = min(found, capacity);
+  if (args.constants.at[0].boundary_count > 0u) {
+    for (int dz = -reach_z; dz <= reach_z; ++dz) {
+      for (int dy = -1; dy <= 1; ++dy) {
+        const uvec2 range = row_range(grid, args.boundary_starts, cell, dy, dz);
+        for (uint j = range.x; j < range.y; ++j) {
+          precise const vec3 d = p - args.boundary.at[j].xyz;
+          if (squared_length(d) < reach) {
+            if (found < capacity) args.lists.at[found * args.count + i] = j;
+            ++found;
+          }
+        }
+      }
+    }
+  }
+  args.counts.at[i] = uvec2(fluid, found);
+}
