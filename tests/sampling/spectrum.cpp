@@ -1,0 +1,215 @@
+#include "cpu_reference/sampling/spectrum.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "geometry/random.h"
+#include "geometry/sampling.h"
+#include "gpu/sampling/spectrum.h"
+#include "tests/chart.h"
+#include "tests/stage.h"
+
+namespace parity {
+namespace {
+
+struct SpectrumProblem {
+  Grid<vec2> values;
+  bool inverse = false;
+};
+auto fields_of(const SpectrumProblem*) {
+  return std::tuple{&SpectrumProblem::values, &SpectrumProblem::inverse};
+}
+
+SpectrumProblem random_signal(const Setting& setting) {
+  SpectrumProblem p;
+  p.values = {setting.count("width"), setting.count("height")};
+  Random random{setting.seed};
+  for (vec2& v : p.values) v = {random.uniform(-1, 1), random.uniform(-1, 1)};
+  p.inverse = setting.count("inverse") != 0;
+  return p;
+}
+
+Grid<dvec2> in_double(const Grid<vec2>& values) {
+  Grid<dvec2> result{values.width(), values.height()};
+  for (std::size_t i = 0; i < values.size(); ++i) result.values()[i] = dvec2(values.values()[i]);
+  return result;
+}
+
+/// ||got - want|| / ||want||.
+double relative_distance(const Grid<dvec2>& got, const Grid<dvec2>& want) {
+  double apart = 0, size = 0;
+  for (std::size_t i = 0; i < want.size(); ++i) {
+    const dvec2 d = got.values()[i] - want.values()[i];
+    apart += glm::dot(d, d);
+    size += glm::dot(want.values()[i], want.values()[i]);
+  }
+  return size > 0 ? std::sqrt(apart / size) : std::sqrt(apart);
+}
+
+Axis side_axis(const char* name) {
+  return {.name = name,
+          .unit = "px",
+          .low = 1,
+          .high = 509,
+          .standard = 120,
+          .logarithmic = true,
+          .whole = true};
+}
+
+const Registration registration = register_stage<SpectrumProblem, Grid<dvec2>>({
+    .name = "sampling/spectrum",
+    .title = "Fourier transform of a picture of any size",
+    .source = "notes 1.8; Cooley & Tukey 1965; Stockham 1966",
+    .rows = {16},
+    .axes = {side_axis("width"),
+             side_axis("height"),
+             {.name = "inverse", .low = 0, .high = 1, .whole = true, .each = true}},
+    .problem = random_signal,
+    .cpu = {{.solve =
+                 [](const SpectrumProblem& p) {
+                   return cpu::fourier_transform(in_double(p.values), p.inverse);
+                 }},
+            {.name = "definition",
+             .solve =
+                 [](const SpectrumProblem& p) {
+                   if (p.values.width() + p.values.height() > 600)
+                     throw Unsupported("the sum takes too long");
+                   return cpu::fourier_sum(in_double(p.values), p.inverse);
+                 },
+             .must_agree = true}},
+    .gpu = {{.solve =
+                 [](gpu::Context& context, const SpectrumProblem& p) {
+                   return in_double(gpu::fourier_transform(context, p.values, p.inverse));
+                 }}},
+    .distance = relative_distance,
+    .tolerance =
+        [](const SpectrumProblem& p) {
+          return gpu::fourier_error_bound(p.values.width(), p.values.height());
+        },
+    .why = "relative, in the 2-norm: a pass of radix r adds r products with rounded roots, "
+           "(r + 6) 2^-24 of the sum of magnitudes, which is at most sqrt(r) of their norm; the "
+           "passes add up",
+    .chart_axes = {"width"},
+});
+
+/// The frequency that is found in samples of a cosine.
+double measured_frequency(gpu::Context& context, double f, int count) {
+  const Grid<dvec2> signal = cpu::windowed(grating(count, 1, {f, 0}));
+  Grid<vec2> single{count, 1};
+  for (int i = 0; i < count; ++i) single(i, 0) = vec2(signal(i, 0));
+  const auto peaks =
+      cpu::spectrum_peaks(in_double(gpu::fourier_transform(context, single, false)), 1);
+  return peaks.empty() ? 0 : peaks[0].frequency.x;
+}
+
+ChartData alias_frequencies(gpu::Context& context) {
+  Series measured{"measured, device", {}};
+  Series theory{"|f - k fs|", {}, Series::Kind::theory};
+  constexpr int count = 512;
+  double worst = 0;
+  for (int i = 1; i < 240; ++i) {
+    const double f = 0.0123 * i;
+    const double alias = cpu::alias_frequency(f, 1);
+    theory.points.push_back({f, alias});
+    if (alias < 4.0 / count || alias > 0.5 - 4.0 / count) continue;
+    measured.points.push_back({f, measured_frequency(context, f, count)});
+    worst = std::max(worst, std::abs(measured.points.back().y - alias) * count);
+  }
+  return {.series = {measured, theory},
+          .assertions = {{"farthest from |f - k fs|, in bins of the transform", worst, 0.02}},
+          .settings = {{"samples", std::to_string(count)},
+                       {"window", "Gaussian, an eighth of the length"}}};
+}
+
+const Registration alias_chart = register_chart({
+    .name = "sampling/alias_frequency",
+    .title = "Frequency that a cosine has after sampling",
+    .x = {.label = "frequency", .unit = "samples⁻¹", .logarithmic = false},
+    .y = {.label = "frequency seen", .unit = "samples⁻¹", .logarithmic = false},
+    .produce = alias_frequencies,
+});
+
+/// Along the radius of a zone plate that reaches twice the sampling rate at its border.
+ChartData zone_plate_frequencies(gpu::Context& context) {
+  constexpr int side = 2048, patch = 64;
+  constexpr double k = 4;  // 2 cycles a pixel at the border
+  const Grid<double> plate = zone_plate(side, patch, k);
+  Series measured{"measured, device", {}};
+  Series theory{"|f - k fs|", {}, Series::Kind::theory};
+  double worst = 0;
+  for (int left = side / 2; left + patch <= side; left += 16) {
+    Grid<double> part{patch, 1};
+    for (int x = 0; x < patch; ++x) part(x, 0) = plate(left + x, patch / 2);
+    const double f = k * (left + patch / 2 - side / 2) / side;
+    const double alias = cpu::alias_frequency(f, 1);
+    theory.points.push_back({f, alias});
+    if (alias < 4.0 / patch || alias > 0.5 - 4.0 / patch) continue;
+    const Grid<dvec2> signal = cpu::windowed(part);
+    Grid<vec2> single{patch, 1};
+    for (int x = 0; x < patch; ++x) single(x, 0) = vec2(signal(x, 0));
+    const auto peaks =
+        cpu::spectrum_peaks(in_double(gpu::fourier_transform(context, single, false)), 1);
+    measured.points.push_back({f, peaks.empty() ? 0 : peaks[0].frequency.x});
+    worst = std::max(worst, std::abs(measured.points.back().y - alias) * patch);
+  }
+  return {
+      .series = {measured, theory},
+      .assertions = {{"farthest from |f - k fs|, in bins of a patch", worst, 0.1}},
+      .settings = {{"zone plate", "2048 px, 2 cycles a pixel at the border"}, {"patch", "64 px"}}};
+}
+
+const Registration zone_chart = register_chart({
+    .name = "sampling/zone_plate",
+    .title = "Local frequency of a sampled zone plate along its radius",
+    .x = {.label = "frequency of the plate", .unit = "px⁻¹", .logarithmic = false},
+    .y = {.label = "frequency seen", .unit = "px⁻¹", .logarithmic = false},
+    .produce = zone_plate_frequencies,
+});
+
+/// Turn between two pictures of a wheel, from the phases of its spokes: the nearest.
+double measured_turn(double turn, int spokes) {
+  const auto phase = [&](double angle) {
+    constexpr int side = 192;
+    const Grid<double> picture = wheel(side, spokes, angle);
+    dvec2 sum{0.0};
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x) {
+        const double phi = std::atan2(-(y + 0.5 - 0.5 * side), x + 0.5 - 0.5 * side);
+        sum += picture(x, y) * dvec2(std::cos(spokes * phi), std::sin(spokes * phi));
+      }
+    return std::atan2(sum.y, sum.x);
+  };
+  return std::remainder(phase(0.3 + turn) - phase(0.3), 2 * std::numbers::pi) / spokes;
+}
+
+ChartData wagon_wheel(gpu::Context&) {
+  constexpr int spokes = 8;
+  constexpr double period = 1.0 / 24;
+  Series measured{"measured", {}};
+  Series theory{"omega modulo 2 pi / (8 T)", {}, Series::Kind::theory};
+  double worst = 0;
+  const double wrap = 2 * std::numbers::pi / spokes / period;
+  for (int i = 0; i <= 120; ++i) {
+    const double omega = i * 0.5;
+    const double apparent = cpu::apparent_turn(omega, spokes, period);
+    theory.points.push_back({omega, apparent});
+    measured.points.push_back({omega, measured_turn(omega * period, spokes) / period});
+    if (std::abs(apparent) < 0.48 * wrap)  // half a period either way looks the same
+      worst = std::max(worst, std::abs(measured.points.back().y - apparent));
+  }
+  return {
+      .series = {measured, theory},
+      .assertions = {{"farthest from omega modulo 2 pi / (8 T), of its range", worst / wrap, 0.01}},
+      .settings = {{"spokes", "8"}, {"frames", "24 a second"}, {"picture", "192x192"}}};
+}
+
+const Registration wheel_chart = register_chart({
+    .name = "sampling/wagon_wheel",
+    .title = "How fast a filmed wheel seems to turn",
+    .x = {.label = "turn", .unit = "rad/s", .logarithmic = false},
+    .y = {.label = "apparent turn", .unit = "rad/s", .logarithmic = false},
+    .produce = wagon_wheel,
+});
+
+}  // namespace
+}  // namespace parity
