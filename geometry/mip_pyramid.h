@@ -1,22 +1,22 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
-
-#include "geometry/grid.h"
-#include "geometry/math.h"
 
 namespace parity {
 
-/// An image and its ever smaller versions down to 1x1.
+/// One level of a mip pyramid, and where it begins when the levels are stored one after another.
+struct MipLevel {
+  int width = 1;
+  int height = 1;
+  std::size_t first = 0;  ///< texels before it
+};
+
+/// Levels 0..n of an image, down to 1x1; sides of level k + 1 are max(1, floor(side / 2)).
 ///
-/// @param image  level 0, 8-bit RGBA, at least 1x1.
-/// @param srgb   RGB is stored in sRGB: averages are taken in linear light and stored in sRGB
-/// again.
-/// @return       levels 0..n; sides of level k + 1 are max(1, floor(side / 2)). Each texel is the
-///               mean over the box that it covers in the level above it, exact for odd sides too.
-/// @throws std::invalid_argument  the image is empty.
+/// @throws std::invalid_argument  a side is less than 1.
 ///
-/// Source: notes 6.3; Vulkan 1.3, "Image Mip Level Sizing".
-std::vector<Grid<u8vec4>> mip_pyramid(const Grid<u8vec4>& image, bool srgb);
+/// Source: Vulkan 1.3, "Image Mip Level Sizing".
+std::vector<MipLevel> mip_levels(int width, int height);
 
 }  // namespace parity

@@ -45,7 +45,7 @@ struct Node {
   int light = -1;
 };
 
-enum class Wrap { repeat, mirrored_repeat, clamp_to_edge };
+enum class Wrap { repeat, mirrored_repeat, clamp_to_edge, clamp_to_border };  ///< border: 0
 enum class Filter { nearest, linear };
 
 struct Sampler {
@@ -54,6 +54,7 @@ struct Sampler {
   Filter mag = Filter::linear;
   Filter min = Filter::linear;
   std::optional<Filter> mip = Filter::linear;  ///< none: level 0 only
+  int max_anisotropy = 1;  ///< 1 to 16: how long a footprint is followed; if min and mip are linear
 };
 
 struct Texture {

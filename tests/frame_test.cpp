@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/mip_pyramid.h"
-
 namespace parity {
 namespace {
 
@@ -122,27 +120,6 @@ TEST(MakeFrame, NamesTheCamerasThereAre) {
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("front"), std::string::npos);
   }
-}
-
-TEST(MipPyramid, KeepsTheMeanOfAnOddImage) {
-  Grid<u8vec4> image{5, 3};
-  for (int i = 0; i < 15; ++i)
-    image.values()[std::size_t(i)] = u8vec4(i * 17, 255 - i * 17, i % 2 * 255, 255);
-  double mean = 0;
-  for (const u8vec4& t : image) mean += t.x / 15.0;
-  const auto levels = mip_pyramid(image, false);
-  ASSERT_EQ(levels.size(), 3u);  // 5x3, 2x1, 1x1
-  EXPECT_EQ(levels[1].width(), 2);
-  EXPECT_EQ(levels[1].height(), 1);
-  EXPECT_NEAR(levels[2](0, 0).x, mean, 0.5);  // one rounding to 8 bits
-}
-
-TEST(MipPyramid, AveragesInLinearLight) {
-  Grid<u8vec4> image{2, 1};
-  image(0, 0) = u8vec4(0, 0, 0, 255);
-  image(1, 0) = u8vec4(255, 255, 255, 255);
-  EXPECT_EQ(mip_pyramid(image, true)[1](0, 0).x, 188);  // sRGB code of linear 0.5
-  EXPECT_EQ(mip_pyramid(image, false)[1](0, 0).x, 128);
 }
 
 }  // namespace

@@ -170,7 +170,7 @@ Rendered render(const Scene& scene, const Frame& frame, const RenderOptions& opt
   const std::vector<dvec2> places = sample_places_in_pixels(o.samples);
   const Elements elements = place_elements(scene, frame, options.snapping);
   clock.finish("vertices");
-  const SceneTextures textures(scene, frame);
+  const SceneTextures textures(scene, frame, options.bounds ? options.device.mip_codes : 0.0);
   clock.finish("textures");
   const RenderJob job{
       frame, options, elements, textures, shading_scene(frame), {o.depth, frame.near, frame.far},

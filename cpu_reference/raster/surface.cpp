@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "geometry/mip_pyramid.h"
+#include "cpu_reference/texture/mip_pyramid.h"
 
 namespace parity::cpu {
 namespace {
@@ -21,15 +21,22 @@ struct PyramidJob {
   const Grid<u8vec4>* image = nullptr;
   bool srgb = false;
   bool all_levels = false;
-  std::vector<Grid<u8vec4>>* levels = nullptr;
+  std::array<std::vector<Grid<u8vec4>>, std::size_t(MipRounding::count)>* levels = nullptr;
 };
 
-void build(std::vector<PyramidJob>& jobs) {
+void build(std::vector<PyramidJob>& jobs, double mip_error) {
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     PyramidJob& job = jobs[i];
-    *job.levels =
-        job.all_levels ? mip_pyramid(*job.image, job.srgb) : std::vector<Grid<u8vec4>>{*job.image};
+    const std::vector<Grid<dvec4>> means =
+        job.all_levels ? mip_means(*job.image, job.srgb) : std::vector<Grid<dvec4>>{};
+    const auto rounded = [&](double error) {
+      return job.all_levels ? round_pyramid(means, error) : std::vector{*job.image};
+    };
+    (*job.levels)[std::size_t(MipRounding::nearest)] = rounded(0);
+    if (mip_error == 0) continue;
+    (*job.levels)[std::size_t(MipRounding::less)] = rounded(mip_error);
+    (*job.levels)[std::size_t(MipRounding::more)] = rounded(-mip_error);
   }
 }
 
@@ -74,8 +81,8 @@ const TextureUse& texture_use(const Material& material, std::size_t slot) {
   }
 }
 
-SceneTextures::SceneTextures(const Scene& scene, const Frame& frame)
-    : materials_(scene.materials.size() + 1) {
+SceneTextures::SceneTextures(const Scene& scene, const Frame& frame, double mip_error) {
+  for (std::vector<MaterialTextures>& each : materials_) each.resize(scene.materials.size() + 1);
   const std::set<int> used = used_materials(frame);
   std::map<std::pair<int, bool>, PyramidJob> wanted;
   const auto visit = [&](auto&& action) {
@@ -96,17 +103,19 @@ SceneTextures::SceneTextures(const Scene& scene, const Frame& frame)
   });
   std::vector<PyramidJob> jobs;
   for (const auto& [key, job] : wanted) jobs.push_back(job);
-  build(jobs);
+  build(jobs, mip_error);
   visit([&](int m, std::size_t slot, const Texture& texture) {
-    const auto& levels = pyramids_.at({texture.image, stores_srgb(slot)});
-    materials_[std::size_t(m) + 1][slot] = {levels, stores_srgb(slot), texture.sampler};
+    const Pyramids& roundings = pyramids_.at({texture.image, stores_srgb(slot)});
+    for (std::size_t i = 0; i < roundings.size(); ++i)
+      materials_[i][std::size_t(m) + 1][slot] = {roundings[mip_error == 0 ? 0 : i],
+                                                 stores_srgb(slot), texture.sampler};
   });
 }
 
 std::uint64_t SceneTextures::memory_bytes() const {
   std::uint64_t bytes = 0;
-  for (const auto& [key, levels] : pyramids_)
-    for (const Grid<u8vec4>& level : levels) bytes += level.size() * sizeof(u8vec4);
+  for (const auto& [key, roundings] : pyramids_)
+    for (const Grid<u8vec4>& level : roundings[0]) bytes += level.size() * sizeof(u8vec4);
   return bytes;
 }
 
@@ -119,6 +128,8 @@ ElementSurface element_surface(const PlacedDraw& placed, std::uint32_t element,
   s.planes = element_planes(placed, element, frame.options.width, frame.options.height);
   s.material = placed.material;
   s.textures = &textures.of(draw.material);
+  s.textures_less = &textures.of(draw.material, MipRounding::less);
+  s.textures_more = &textures.of(draw.material, MipRounding::more);
   s.topology = p.topology;
   const dmat3 linear{draw.world_from_object};
   for (std::size_t i = 0; i < 3; ++i) {

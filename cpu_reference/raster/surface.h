@@ -27,20 +27,29 @@ using MaterialTextures = std::array<MippedTexture, slot_count>;
 /// How a material uses the texture in a slot.
 const TextureUse& texture_use(const Material& material, std::size_t slot);
 
+/// How texels of mip levels are rounded: to the next code, or as a right device might whose value
+/// before that is a little less or more.
+enum class MipRounding : std::size_t { nearest, less, more, count };
+
 /// Mip pyramids of all textures that a frame's draws use. Only level 0 where nothing reads more.
 class SceneTextures {
  public:
-  SceneTextures(const Scene& scene, const Frame& frame);
+  /// @param mip_error  of a device's mip levels before they are rounded, in codes; 0: all roundings
+  ///                   are one.
+  SceneTextures(const Scene& scene, const Frame& frame, double mip_error);
   SceneTextures(const SceneTextures&) = delete;
   SceneTextures& operator=(const SceneTextures&) = delete;
 
   /// @param material  index into Scene::materials, -1: the default material.
-  const MaterialTextures& of(int material) const { return materials_[std::size_t(material + 1)]; }
+  const MaterialTextures& of(int material, MipRounding rounding = MipRounding::nearest) const {
+    return materials_[std::size_t(rounding)][std::size_t(material + 1)];
+  }
   std::uint64_t memory_bytes() const;
 
  private:
-  std::map<std::pair<int, bool>, std::vector<Grid<u8vec4>>> pyramids_;  ///< by image and sRGB
-  std::vector<MaterialTextures> materials_;
+  using Pyramids = std::array<std::vector<Grid<u8vec4>>, std::size_t(MipRounding::count)>;
+  std::map<std::pair<int, bool>, Pyramids> pyramids_;  ///< by image and sRGB
+  std::array<std::vector<MaterialTextures>, std::size_t(MipRounding::count)> materials_;
 };
 
 /// An element with all that varies over it, in world space.
@@ -48,6 +57,8 @@ struct ElementSurface {
   Planes planes;
   const Material* material = nullptr;
   const MaterialTextures* textures = nullptr;
+  const MaterialTextures* textures_less = nullptr;  ///< MipRounding
+  const MaterialTextures* textures_more = nullptr;
   Topology topology = Topology::triangles;
   std::array<dvec3, 3> position{};
   std::array<dvec3, 3> normal{};  ///< any length

@@ -159,8 +159,9 @@ dvec2 texel_size(const MippedTexture& t, double lambda) {
   return {1.0 / image.width(), 1.0 / image.height()};
 }
 
-BoundedLookup lookup(const MippedTexture& texture, const TextureDoubt& doubt,
+BoundedLookup lookup(const ElementSurface& surface, std::size_t slot, const TextureDoubt& doubt,
                      const DeviceLimits& limits) {
+  const MippedTexture& texture = (*surface.textures)[slot];
   const dvec2 uv = doubt.place.uv;
   const double lambda = doubt.place.lambda;
   const TextureLookup center = sample(texture, uv, lambda);
@@ -188,6 +189,9 @@ BoundedLookup lookup(const MippedTexture& texture, const TextureDoubt& doubt,
     result.bound += change;
   }
   result.bound += glm::max(move(uv, doubt.lambda_low), move(uv, doubt.lambda_high));
+  // Texels of mip levels that a device may round otherwise.
+  for (const MaterialTextures* rounded : {surface.textures_less, surface.textures_more})
+    result.bound += glm::abs(sample((*rounded)[slot], uv, lambda).value - center.value);
   // Seven products and sums a level, two levels; decoding.
   result.bound += glm::abs(result.value) * (16 * half_ulp);
   if (texture.srgb)
@@ -213,7 +217,7 @@ BoundedPoint bounded_point(const PlacedDraw& placed, std::uint32_t element, cons
     const MippedTexture& texture = (*s.textures)[slot];
     if (texture.levels.empty() || (s.material->unlit && slot != slot_base_color)) continue;
     const TextureDoubt doubt = texture_doubt(placed, element, s, error, slot, b, limits, pixel);
-    const BoundedLookup read = lookup(texture, doubt, limits);
+    const BoundedLookup read = lookup(s, slot, doubt, limits);
     set_texture_inputs(p.error, slot, read.bound);
     p.in_doubt |= read.in_doubt;
   }
@@ -293,8 +297,8 @@ BoundedColor alpha_with_bound(const PlacedDraw& draw, std::uint32_t element,
   const MippedTexture& texture = (*s.textures)[slot_base_color];
   if (!texture.levels.empty()) {
     const BoundedLookup read =
-        lookup(texture, texture_doubt(draw, element, s, error, slot_base_color, b, limits, {x, y}),
-               limits);
+        lookup(s, slot_base_color,
+               texture_doubt(draw, element, s, error, slot_base_color, b, limits, {x, y}), limits);
     texel = read.value.w;
     texel_error = read.bound.w;
     alpha.in_doubt = read.in_doubt;

@@ -24,6 +24,7 @@ struct SamplerLimits {
 struct DeviceLimits {
   int sub_pixel_bits = 8;
   std::optional<SamplerLimits> sampler;  ///< none: shaders filter textures in single precision
+  double mip_codes = 0.02;               ///< error of a mip level's value before it is rounded
   bool half_color = true;                ///< colour targets of 16-bit floats, else 32
   /// px; lavapipe (25.0.7, measured) takes depth and varyings of multisampled lines half a pixel to
   /// the right and half a pixel down of where they belong.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "cpu_reference/texture/texel.h"
+
 namespace parity::cpu {
 namespace {
 
@@ -26,25 +28,6 @@ std::array<double, 256> unorm_table() {
 const std::array<double, 256> linear_of_srgb = srgb_table();
 const std::array<double, 256> linear_of_unorm = unorm_table();
 
-/// Texel that a coordinate stands for. Source: Vulkan 1.3, "Wrapping Operation".
-int wrap_texel(std::int64_t i, int size, Wrap wrap) {
-  if (i >= 0 && i < size) return int(i);
-  switch (wrap) {
-    case Wrap::repeat: {
-      const std::int64_t r = i % size;
-      return int(r < 0 ? r + size : r);
-    }
-    case Wrap::mirrored_repeat: {
-      const std::int64_t period = 2 * std::int64_t(size);
-      const std::int64_t r = ((i % period) + period) % period;
-      return int(r < size ? r : period - 1 - r);
-    }
-    case Wrap::clamp_to_edge:
-      return i < 0 ? 0 : size - 1;
-  }
-  return 0;
-}
-
 dvec4 decode(u8vec4 texel, bool srgb) {
   const auto& table = srgb ? linear_of_srgb : linear_of_unorm;
   return {table[texel.x], table[texel.y], table[texel.z], linear_of_unorm[texel.w]};
@@ -55,34 +38,29 @@ std::uint32_t mix_choice(std::uint32_t seed, std::uint32_t value) {
   return (seed ^ value) * 16777619u + 0x9e3779b9u;
 }
 
-/// Coordinates so large that no texel can be told apart are kept inside of what converts to int.
-double bounded(double c) { return std::isfinite(c) ? std::clamp(c, -1e15, 1e15) : 0.0; }
-
 TextureLookup nearest_texel(const MippedTexture& t, dvec2 uv, int level) {
   const Grid<u8vec4>& image = t.levels[std::size_t(level)];
-  const int x = wrap_texel(std::int64_t(std::floor(bounded(uv.x * image.width()))), image.width(),
-                           t.sampler.wrap_u);
-  const int y = wrap_texel(std::int64_t(std::floor(bounded(uv.y * image.height()))), image.height(),
-                           t.sampler.wrap_v);
+  const auto x = std::int64_t(std::floor(bounded_coordinate(uv.x * image.width())));
+  const auto y = std::int64_t(std::floor(bounded_coordinate(uv.y * image.height())));
+  const int column = wrap_texel(x, image.width(), t.sampler.wrap_u).value_or(-1);
+  const int row = wrap_texel(y, image.height(), t.sampler.wrap_v).value_or(-1);
   const std::uint32_t where =
-      mix_choice(mix_choice(std::uint32_t(level), std::uint32_t(x)), std::uint32_t(y));
-  return {decode(image(x, y), t.srgb), where};
+      mix_choice(mix_choice(std::uint32_t(level), std::uint32_t(column)), std::uint32_t(row));
+  return {read_texel(image, t.srgb, x, y, t.sampler), where};
 }
 
 TextureLookup bilinear(const MippedTexture& t, dvec2 uv, int level) {
   const Grid<u8vec4>& image = t.levels[std::size_t(level)];
-  const double u = bounded(uv.x * image.width() - 0.5);
-  const double v = bounded(uv.y * image.height() - 0.5);
-  const double u0 = std::floor(u);
-  const double v0 = std::floor(v);
-  const double a = u - u0;
-  const double b = v - v0;
-  const int x0 = wrap_texel(std::int64_t(u0), image.width(), t.sampler.wrap_u);
-  const int x1 = wrap_texel(std::int64_t(u0) + 1, image.width(), t.sampler.wrap_u);
-  const int y0 = wrap_texel(std::int64_t(v0), image.height(), t.sampler.wrap_v);
-  const int y1 = wrap_texel(std::int64_t(v0) + 1, image.height(), t.sampler.wrap_v);
-  const dvec4 top = decode(image(x0, y0), t.srgb) * (1 - a) + decode(image(x1, y0), t.srgb) * a;
-  const dvec4 bottom = decode(image(x0, y1), t.srgb) * (1 - a) + decode(image(x1, y1), t.srgb) * a;
+  const double u = bounded_coordinate(uv.x * image.width() - 0.5);
+  const double v = bounded_coordinate(uv.y * image.height() - 0.5);
+  const double a = u - std::floor(u);
+  const double b = v - std::floor(v);
+  const auto texel = [&](int right, int down) {
+    return read_texel(image, t.srgb, std::int64_t(std::floor(u)) + right,
+                      std::int64_t(std::floor(v)) + down, t.sampler);
+  };
+  const dvec4 top = texel(0, 0) * (1 - a) + texel(1, 0) * a;
+  const dvec4 bottom = texel(0, 1) * (1 - a) + texel(1, 1) * a;
   return {top * (1 - b) + bottom * b, 0};
 }
 
@@ -109,6 +87,35 @@ std::uint32_t filter_choice(const Sampler& s, bool minified) {
 }
 
 }  // namespace
+
+std::optional<int> wrap_texel(std::int64_t i, int size, Wrap wrap) {
+  if (i >= 0 && i < size) return int(i);
+  switch (wrap) {
+    case Wrap::repeat: {
+      const std::int64_t r = i % size;
+      return int(r < 0 ? r + size : r);
+    }
+    case Wrap::mirrored_repeat: {
+      const std::int64_t period = 2 * std::int64_t(size);
+      const std::int64_t r = ((i % period) + period) % period;
+      return int(r < size ? r : period - 1 - r);
+    }
+    case Wrap::clamp_to_edge:
+      return i < 0 ? 0 : size - 1;
+    case Wrap::clamp_to_border:
+      return std::nullopt;
+  }
+  return 0;
+}
+
+dvec4 read_texel(const Grid<u8vec4>& image, bool srgb, std::int64_t x, std::int64_t y,
+                 const Sampler& sampler) {
+  const std::optional<int> column = wrap_texel(x, image.width(), sampler.wrap_u);
+  const std::optional<int> row = wrap_texel(y, image.height(), sampler.wrap_v);
+  return column && row ? decode(image(*column, *row), srgb) : dvec4(0.0);
+}
+
+double bounded_coordinate(double c) { return std::isfinite(c) ? std::clamp(c, -1e15, 1e15) : 0.0; }
 
 double linear_from_srgb_code(std::uint8_t code) { return linear_of_srgb[code]; }
 

@@ -1,20 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
-#include "geometry/grid.h"
 #include "geometry/math.h"
-#include "geometry/scene.h"
+#include "geometry/texture.h"
 
 namespace parity::cpu {
 
-/// An image with its smaller versions, and how it is read.
-struct MippedTexture {
-  std::span<const Grid<u8vec4>> levels;  ///< borrowed; level 0 first, none empty: mip_pyramid
-  bool srgb = false;                     ///< RGB is stored in sRGB
-  Sampler sampler;
-};
+using parity::MippedTexture;
 
 /// What a lookup gives, and which discrete choices it took: two lookups with equal `choices` read
 /// the same texels with continuous weights, so that they differ by continuity only.

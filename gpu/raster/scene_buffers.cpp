@@ -56,17 +56,6 @@ std::uint32_t sampler_flags(const Sampler& sampler) {
   return flags;
 }
 
-std::vector<std::uint32_t> pack(const std::vector<Grid<u8vec4>>& levels) {
-  std::vector<std::uint32_t> words(levels.size());
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    words[i] = std::uint32_t(words.size());
-    for (const u8vec4& c : levels[i])
-      words.push_back(std::uint32_t(c.x) | std::uint32_t(c.y) << 8 | std::uint32_t(c.z) << 16 |
-                      std::uint32_t(c.w) << 24);
-  }
-  return words;
-}
-
 SceneMaterial without_textures(const Material& m) {
   SceneMaterial result{};
   result.base_color = m.base_color;
@@ -112,6 +101,7 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene)
       vectors_(pool_bytes(context)),
       tangents_and_colors_(pool_bytes(context)),
       uvs_(pool_bytes(context)),
+      mip_pyramid_(context),
       mipmapped_(images_with_mips(scene)),
       linear_from_srgb_(context, srgb_table()) {
   add_materials(context, scene);
@@ -172,10 +162,14 @@ const SceneBuffers::Texels& SceneBuffers::texels(Context& context, const Scene& 
   const auto [place, is_new] = images_.try_emplace({image, srgb});
   if (!is_new) return place->second;
   const Grid<u8vec4>& grid = scene.images[std::size_t(image)];
-  const std::vector<Grid<u8vec4>> levels =
-      mipmapped_[std::size_t(image)] ? mip_pyramid(grid, srgb) : std::vector<Grid<u8vec4>>{grid};
-  place->second = {Buffer<std::uint32_t>(context, pack(levels)), grid.width(), grid.height(),
-                   int(levels.size())};
+  std::vector<MipLevel> levels = mip_levels(grid.width(), grid.height());
+  if (!mipmapped_[std::size_t(image)]) levels.resize(1);
+  std::vector<std::uint32_t> begins;
+  for (const MipLevel& level : levels) begins.push_back(std::uint32_t(levels.size() + level.first));
+  Buffer<std::uint32_t> words =
+      build_pyramid(context, mip_pyramid_, grid, srgb, {begins.size(), levels.size()});
+  words.write(begins);
+  place->second = {std::move(words), grid.width(), grid.height(), int(levels.size())};
   return place->second;
 }
 

@@ -8,6 +8,7 @@
 #include "geometry/scene.h"
 #include "gpu/core/buffer.h"
 #include "gpu/raster/pool.h"
+#include "gpu/texture/mip_pyramid.h"
 #include "shaders/raster/scene_layout.h"
 
 namespace parity::gpu {
@@ -81,6 +82,7 @@ class SceneBuffers {
   Pool<vec4> tangents_and_colors_;
   Pool<vec2> uvs_;
   std::vector<std::vector<PrimitiveSlices>> primitives_;
+  MipPyramid mip_pyramid_;
   std::map<ImageKey, Texels> images_;
   std::vector<bool> mipmapped_;            ///< by image
   std::vector<std::vector<int>> uv_sets_;  ///< by material and slot

@@ -5,6 +5,13 @@
 #define PARITY_TEXTURE_SAMPLE_GLSL
 #include "raster/scene_layout.h"
 
+layout(constant_id = 20) const bool has_borders = false;  // some texture is clamped to a border of 0
+
+// 1 where texel `i` counts, 0 where it is the border's.
+float border_weight(float i, float size, uint mode) {
+  return mode == 3u && (i < 0.0 || i >= size) ? 0.0 : 1.0;
+}
+
 // Where texel `i` (an integer as float) lies in an axis of `size` texels.
 uint wrap_texel(float i, float size, uint mode) {
   const float period = mode == 1u ? 2.0 * size : size;
@@ -12,7 +19,7 @@ uint wrap_texel(float i, float size, uint mode) {
   // The quotient may have rounded across an integer.
   r += r < 0.0 ? period : (r >= period ? -period : 0.0);
   if (mode == 1u && r >= size) r = period - 1.0 - r;
-  if (mode == 2u) r = i;
+  if (mode >= 2u) r = i;
   // Last, so that no coordinate, however large or undefined, leaves the texture.
   return min(uint(clamp(r, 0.0, size - 1.0)), uint(size) - 1u);
 }
@@ -44,7 +51,10 @@ vec4 sample_level(SceneTexture t, uint level, bool linear, vec2 uv, ref_float li
     const bool right = (corner & 1u) != 0u;
     const bool lower = (corner & 2u) != 0u;
     const uint texel = t.texels.at[first + (lower ? y1 : y0) * uint(size.x) + (right ? x1 : x0)];
-    const float w = (right ? weight.x : 1.0 - weight.x) * (lower ? weight.y : 1.0 - weight.y);
+    float w = (right ? weight.x : 1.0 - weight.x) * (lower ? weight.y : 1.0 - weight.y);
+    if (has_borders)
+      w *= border_weight(low.x + (right ? 1.0 : 0.0), size.x, wrap_u) *
+           border_weight(low.y + (lower ? 1.0 : 0.0), size.y, wrap_v);
     sum += w * decode_texel(texel, srgb, linear_from_srgb);
   }
   return sum;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cpu_reference/texture/sample.h"
-#include "geometry/mip_pyramid.h"
+#include "cpu_reference/texture/mip_pyramid.h"
 
 namespace parity {
 namespace {
@@ -112,7 +112,7 @@ TEST(CpuTexture, MeasuresTheFootprintInTexels) {
 }
 
 TEST(CpuTexture, SurvivesCoordinatesThatAreNotFinite) {
-  const auto levels = mip_pyramid(ramp()[0], false);
+  const auto levels = cpu::mip_pyramid(ramp()[0], false);
   const double infinity = std::numeric_limits<double>::infinity();
   for (const Filter filter : {Filter::nearest, Filter::linear})
     for (const double bad : {infinity, -infinity, std::nan(""), 1e300, -1e300}) {

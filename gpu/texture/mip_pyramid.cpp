@@ -1,0 +1,106 @@
+#include "gpu/texture/mip_pyramid.h"
+
+#include <cstring>
+#include <stdexcept>
+
+#include "geometry/mip_pyramid.h"
+#include "shaders.h"
+
+namespace parity::gpu {
+namespace {
+
+constexpr std::uint32_t srgb_constant = 0, from_codes_constant = 1;
+
+std::size_t texels_of(const MipLevel& level) {
+  return std::size_t(level.width) * std::size_t(level.height);
+}
+
+template <typename T>
+BufferRef<T> at(BufferRef<std::uint32_t> codes, std::size_t texel) {
+  return {codes.address + texel * sizeof(std::uint32_t)};
+}
+
+/// Sides that two levels can be made of at once.
+bool makes_pairs(const MipLevel& level) { return level.width % 4 == 0 && level.height % 4 == 0; }
+
+}  // namespace
+
+MipPyramid::MipPyramid(Context& context)
+    : linear_pair_(context, shaders::texture_mip_pyramid_comp, {{srgb_constant, 0}}),
+      srgb_pair_(context, shaders::texture_mip_pyramid_comp, {{srgb_constant, 1}}),
+      linear_first_(context, shaders::texture_mip_level_comp,
+                    {{srgb_constant, 0}, {from_codes_constant, 1}}),
+      srgb_first_(context, shaders::texture_mip_level_comp,
+                  {{srgb_constant, 1}, {from_codes_constant, 1}}),
+      linear_next_(context, shaders::texture_mip_level_comp,
+                   {{srgb_constant, 0}, {from_codes_constant, 0}}),
+      srgb_next_(context, shaders::texture_mip_level_comp,
+                 {{srgb_constant, 1}, {from_codes_constant, 0}}) {}
+
+MipPyramid::Scratch::Scratch(Context& context, int width, int height) {
+  const std::vector<MipLevel> levels = mip_levels(width, height);
+  const auto room = [&](std::size_t level) {
+    return level < levels.size() ? texels_of(levels[level]) : 0;
+  };
+  const bool pairs = makes_pairs(levels[0]);
+  odd = Buffer<vec4>(context, pairs ? room(3) : room(1));
+  even = Buffer<vec4>(context, room(2));
+}
+
+void MipPyramid::record(Commands& commands, BufferRef<std::uint32_t> codes, int width, int height,
+                        bool srgb, const Scratch& scratch) const {
+  const std::vector<MipLevel> levels = mip_levels(width, height);
+  const auto means = [&](std::size_t level) -> BufferRef<vec4> {
+    return level % 2 == 0 ? scratch.even : scratch.odd;
+  };
+  std::size_t next = 1;
+  if (makes_pairs(levels[0])) {
+    commands.dispatch(srgb ? srgb_pair_ : linear_pair_, {std::uint32_t(texels_of(levels[2]))},
+                      {at<uvec4>(codes, 0), at<uvec2>(codes, levels[1].first),
+                       at<std::uint32_t>(codes, levels[2].first), means(2), std::uint32_t(width),
+                       std::uint32_t(height)});
+    next = 3;
+  }
+  for (; next < levels.size(); ++next) {
+    const MipLevel& above = levels[next - 1];
+    const MipLevel& level = levels[next];
+    const Kernel<MipLevelArgs>& kernel =
+        next == 1 ? (srgb ? srgb_first_ : linear_first_) : (srgb ? srgb_next_ : linear_next_);
+    commands.dispatch(
+        kernel, {std::uint32_t(texels_of(level))},
+        {at<std::uint32_t>(codes, above.first), means(next - 1),
+         at<std::uint32_t>(codes, level.first), means(next), std::uint32_t(above.width),
+         std::uint32_t(above.height), std::uint32_t(level.width), std::uint32_t(level.height)});
+  }
+}
+
+Buffer<std::uint32_t> build_pyramid(Context& context, const MipPyramid& pyramid,
+                                    const Grid<u8vec4>& image, bool srgb, PyramidRoom room) {
+  if (image.empty()) throw std::invalid_argument("gpu::mip_pyramid: the image is empty");
+  const std::vector<MipLevel> levels = mip_levels(image.width(), image.height());
+  const std::size_t texels = room.levels == 1 ? image.size() : levels.back().first + 1;
+  Buffer<std::uint32_t> codes(context, room.head + texels);
+  std::vector<std::uint32_t> level(image.size());
+  std::memcpy(level.data(), image.data(), image.size() * sizeof(std::uint32_t));
+  codes.write(level, room.head);
+  if (room.levels == 1 || levels.size() == 1) return codes;
+  const MipPyramid::Scratch scratch(context, image.width(), image.height());
+  context.run([&](Commands& commands) {
+    pyramid.record(commands, codes.ref(room.head), image.width(), image.height(), srgb, scratch);
+  });
+  return codes;
+}
+
+std::vector<Grid<u8vec4>> mip_pyramid(Context& context, const Grid<u8vec4>& image, bool srgb) {
+  const std::vector<MipLevel> levels = mip_levels(image.width(), image.height());
+  const std::vector<std::uint32_t> words =
+      build_pyramid(context, MipPyramid(context), image, srgb, {0, levels.size()}).read();
+  std::vector<Grid<u8vec4>> pyramid;
+  for (const MipLevel& level : levels) {
+    Grid<u8vec4>& codes = pyramid.emplace_back(level.width, level.height);
+    std::memcpy(codes.data(), words.data() + level.first, codes.size() * sizeof(std::uint32_t));
+  }
+  return pyramid;
+}
+
+}  // namespace parity::gpu

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geometry/grid.h"
+#include "geometry/math.h"
+#include "gpu/core/buffer.h"
+#include "gpu/core/commands.h"
+#include "gpu/core/kernel.h"
+#include "shaders/texture/layout.h"
+
+namespace parity::gpu {
+
+/// Makes the levels of mip pyramids on the device.
+///
+/// Mathematics: cpu::mip_pyramid; means are handed from level to level in single precision.
+/// Accuracy: codes of values that are off by less than 0.02 codes.
+class MipPyramid {
+ public:
+  explicit MipPyramid(Context& context);
+
+  /// Means of the levels on the way, for pyramids up to the size that it was made for.
+  struct Scratch {
+    Scratch(Context& context, int width, int height);
+    Buffer<vec4> even, odd;
+  };
+
+  /// Fills levels 1..n behind level 0.
+  ///
+  /// @param codes  the first texel of level 0; the levels lie as mip_levels says.
+  void record(Commands& commands, BufferRef<std::uint32_t> codes, int width, int height, bool srgb,
+              const Scratch& scratch) const;
+
+ private:
+  Kernel<MipPairArgs> linear_pair_, srgb_pair_;
+  Kernel<MipLevelArgs> linear_first_, srgb_first_, linear_next_, srgb_next_;
+};
+
+/// How a pyramid lies in a buffer.
+struct PyramidRoom {
+  std::size_t head = 0;    ///< words before level 0, not written
+  std::size_t levels = 1;  ///< 1: level 0 only; else all
+};
+
+/// The levels of an image, RGBA8, one after another as mip_levels says.
+///
+/// @throws std::invalid_argument  the image is empty.
+Buffer<std::uint32_t> build_pyramid(Context& context, const MipPyramid& pyramid,
+                                    const Grid<u8vec4>& image, bool srgb, PyramidRoom room);
+
+/// Levels 0..n of an image. Mathematics: cpu::mip_pyramid.
+std::vector<Grid<u8vec4>> mip_pyramid(Context& context, const Grid<u8vec4>& image, bool srgb);
+
+}  // namespace parity::gpu
