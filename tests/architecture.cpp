@@ -46,7 +46,7 @@ constexpr std::array<Rule, 11> own_rules{{
 /// Libraries that only some files may include; the standard library and the system are free.
 constexpr std::array<Rule, 6> library_rules{{
     {R"(geometry/math\.h|tests/.*)", R"(glm/.*)"},
-    {R"(gpu/core/(.*\.cpp|vulkan_state\.h))", R"(volk\.h|vulkan/.*)"},
+    {R"(gpu/core/(.*\.cpp|vulkan_handles\.h))", R"(volk\.h|vulkan/.*)"},
     {R"((geometry|sim)/\w+_io\.(cpp|h)|tests/.*|tools/.*)",
      R"(tiny_gltf\.h|tiny_obj_loader\.h|stb.*|nlohmann/.*|png\.h|jpeglib\.h|jerror\.h|Imf.*|meshoptimizer\.h|draco/.*|fmt/.*)"},
     {R"(tests/.*)", R"(gtest/.*|gmock/.*|Eigen/.*)"},

@@ -89,6 +89,58 @@ TEST(GpuCore, RefusesArgsOfAnotherSizeNamingBoth) {
   }
 }
 
+TEST(GpuCore, BuildsEachPipelineOnce) {
+  gpu::Context context;
+  const auto add_first = [&](const std::vector<gpu::Specialization>& constants) {
+    return add_on_device(context, {1}, 2, constants).at(0);
+  };
+  EXPECT_EQ(add_first({}), 3);
+  const std::size_t one = context.pipeline_count();
+  EXPECT_EQ(add_first({}), 3);
+  EXPECT_EQ(context.pipeline_count(), one);
+  EXPECT_EQ(add_first({{.id = 0, .value = 32}}), 3);
+  EXPECT_EQ(add_first({{.id = 0, .value = 16}}), 3);
+  EXPECT_EQ(context.pipeline_count(), one + 2);
+  gpu::RasterOptions options{.colors = {gpu::Format::rgba32_float}};
+  const auto draw = [&] {
+    return gpu::RasterPipeline<TestTriangleArgs>(context, gpu::shaders::core_test_triangle_vert,
+                                                 gpu::shaders::core_test_triangle_frag, options);
+  };
+  draw(), draw();
+  EXPECT_EQ(context.pipeline_count(), one + 3);
+  options.blends = {gpu::Blend::add};
+  draw();
+  EXPECT_EQ(context.pipeline_count(), one + 4);
+}
+
+TEST(GpuCore, DropsOnlyPipelinesThatNothingUses) {
+  gpu::Context context;
+  const Kernel<TestAddArgs> kept(context, gpu::shaders::core_test_add_comp);
+  add_on_device(context, {1}, 2, {{.id = 0, .value = 32}});
+  context.drop_unused_pipelines();
+  EXPECT_EQ(context.pipeline_count(), 1u);
+  const Buffer<float> values(context, counting(3));
+  context.run([&](Commands& commands) {
+    commands.dispatch(kept, {.x = 3}, {values, values, 3, 1});
+  });
+  EXPECT_EQ(values.read(), (std::vector<float>{1, 2, 3}));
+}
+
+// The cache must not answer for a shader whose words or arguments differ.
+TEST(GpuCore, ACachedPipelineIsNotAnswerForAnother) {
+  const Kernel<TestAddArgs> add(test_context(), gpu::shaders::core_test_add_comp);
+  EXPECT_EQ(
+      kind_of_error([] { Kernel<TestPokeArgs>(test_context(), gpu::shaders::core_test_add_comp); }),
+      ErrorKind::invalid_shader);
+  std::vector<std::uint32_t> words(gpu::shaders::core_test_add_comp.words.begin(),
+                                   gpu::shaders::core_test_add_comp.words.end());
+  words[0] = 0;
+  EXPECT_EQ(kind_of_error([&] {
+              Kernel<TestAddArgs>(test_context(), {gpu::shaders::core_test_add_comp.name, words});
+            }),
+            ErrorKind::invalid_shader);
+}
+
 TEST(GpuCore, BuffersKeepWhatIsWritten) {
   for (const bool staged : {false, true}) {
     gpu::Context context({.device = "", .guard = gpu::Guard::zones, .force_staging = staged});
@@ -263,6 +315,16 @@ TEST(GpuCore, TimesTheWholeAndEachPass) {
   EXPECT_GT(timing.seconds, 0);
   EXPECT_LE(sum, timing.seconds * (1 + 1e-12));  // 100 roundings of a sum in double
   EXPECT_LT(timing.seconds, 10);
+}
+
+TEST(GpuCore, AddsUpTheSecondsOfItsRuns) {
+  gpu::Context context;
+  const Buffer<float> values(context, counting(1000));
+  double seconds = context.device_seconds();
+  for (int run = 0; run < 3; ++run)
+    seconds += context.run([&](Commands& commands) { commands.fill(values, 0); }).seconds;
+  EXPECT_GT(seconds, 0);
+  EXPECT_EQ(context.device_seconds(), seconds);
 }
 
 TEST(GpuCore, ChoosesDevicesByIndexAndName) {

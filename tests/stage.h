@@ -29,13 +29,12 @@ class Unsupported : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// An answer, with the seconds that it took where the method knows better than the clock around it
-/// (device timestamps). A plain answer converts.
+/// An answer, with the seconds that it took where the method knows better than the clocks around
+/// it: the device's own for what a Context ran, the wall's for the host. A plain answer converts.
 template <typename Answer>
 struct Measured {
   Measured(Answer value) : answer(std::move(value)) {}
-  Measured(Answer value, double device_seconds)
-      : answer(std::move(value)), seconds(device_seconds) {}
+  Measured(Answer value, double own_seconds) : answer(std::move(value)), seconds(own_seconds) {}
   Answer answer;
   std::optional<double> seconds;
 };
@@ -139,7 +138,7 @@ struct Method {
 /// One method's answer to one problem.
 struct Attempt {
   std::any answer;
-  double seconds = 0;
+  double seconds = 0;  ///< of the device's clock without uploads and reading back, or of the wall's
 };
 
 /// A record without its types. Problems travel as std::any.
@@ -225,12 +224,15 @@ double incomparable(std::span<const double> got, std::span<const double> want);
 double wall_seconds();
 std::vector<Method> link_judges(std::vector<Method> methods, const std::vector<bool>& must_agree);
 
+/// Seconds of what the device ran, or of the wall clock where there is no device or it ran nothing.
 template <typename Answer>
-Attempt timed(const std::function<Measured<Answer>()>& solve) {
+Attempt timed(const gpu::Context* context, const std::function<Measured<Answer>()>& solve) {
+  const double device_start = context == nullptr ? 0 : context->device_seconds();
   const double start = wall_seconds();
   Measured<Answer> measured = solve();
   const double wall = wall_seconds() - start;
-  return {std::move(measured.answer), measured.seconds.value_or(wall)};
+  const double device = context == nullptr ? 0 : context->device_seconds() - device_start;
+  return {std::move(measured.answer), measured.seconds.value_or(device > 0 ? device : wall)};
 }
 
 template <typename Problem, typename Answer>
@@ -284,10 +286,10 @@ Stage erase_types(StageRecord<Problem, Answer> record) {
     const Problem& problem = as_problem(any);
     const std::size_t cpu_count = shared->cpu.size();
     if (method < cpu_count)
-      return detail::timed<Answer>([&] { return shared->cpu[method].solve(problem); });
+      return detail::timed<Answer>(nullptr, [&] { return shared->cpu[method].solve(problem); });
     if (context == nullptr) throw Unsupported("no device");
     return detail::timed<Answer>(
-        [&] { return shared->gpu.at(method - cpu_count).solve(*context, problem); });
+        context, [&] { return shared->gpu.at(method - cpu_count).solve(*context, problem); });
   };
   if (r.distance.of)
     stage.distance = [=](const std::any& problem, const Attempt& got, const Attempt& want) {

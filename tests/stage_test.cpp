@@ -5,6 +5,9 @@
 #include <array>
 #include <limits>
 
+#include "gpu/core/commands.h"
+#include "tests/gpu_context.h"
+
 namespace parity {
 namespace {
 
@@ -61,6 +64,32 @@ TEST(Stage, AcceptsTheRightAnswer) {
   EXPECT_EQ(trial.methods[1].error, 0.0);
   EXPECT_EQ(trial.methods[1].seconds, 0.25);
   EXPECT_EQ(trial.methods[2].skipped, "no device");
+}
+
+// Compiling, uploads and the host's own work do not count.
+TEST(Stage, TimesTheDeviceByItsOwnClock) {
+  double ran = 0;
+  Stage stage = erase_types<Values, Values>(
+      {.name = "test/clock",
+       .title = "A run between two",
+       .source = "none",
+       .problem = [](const Setting&) { return Values(1); },
+       .cpu = {{.solve = [](const Values& values) { return values; }}},
+       .gpu = {{.solve =
+                    [&](gpu::Context& context, const Values& values) {
+                      const gpu::Buffer<float> buffer(context, values);
+                      for (int i = 0; i < 2; ++i)
+                        ran += context.run([&](gpu::Commands& c) { c.fill(buffer, 0); }).seconds;
+                      return values;
+                    }}},
+       .distance = largest_difference,
+       .tolerance = 0.0,
+       .why = "equal"});
+  test_context().run([](gpu::Commands&) {});
+  const Trial trial = run_stage(stage, Setting(stage.axes), &test_context());
+  EXPECT_GT(ran, 0);
+  // The sum was taken from a larger one, with a rounding of that at each step.
+  EXPECT_NEAR(trial.methods[1].seconds, ran, 4 * 0x1p-53 * test_context().device_seconds());
 }
 
 TEST(Stage, RejectsOneWrongNumber) {

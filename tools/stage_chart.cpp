@@ -82,6 +82,11 @@ ChartData produce(const Stage& stage, const Axis& axis, gpu::Context& context) {
     if (name != axis.name) data.settings.emplace_back(name, short_number(value));
   data.settings.emplace_back(axis.name, short_number(axis.low) + " to " + short_number(axis.high));
   data.settings.emplace_back("seed", std::to_string(setting.seed));
+  data.settings.emplace_back("timed",
+                             context.info().timestamps
+                                 ? "the device by its own clock, without uploads and reading "
+                                   "back; the host by the wall"
+                                 : "by the wall");
   return data;
 }
 

@@ -102,6 +102,7 @@ Context::Context(const ContextOptions& options)
     : state_(std::make_unique<ContextState>(options, make_log(options))) {
   try {
     state_->info.cuts_loops_short = cuts_loops_short(*this);
+    drop_unused_pipelines();  // the canary
   } catch (...) {
     abandon(state_);
     throw;
@@ -114,6 +115,17 @@ const DeviceInfo& Context::info() const { return state_->info; }
 const ContextOptions& Context::options() const { return state_->options; }
 std::uint64_t Context::memory_bytes() const { return state_->memory_bytes; }
 std::uint64_t Context::peak_memory_bytes() const { return state_->peak_memory_bytes; }
+
+double Context::device_seconds() const { return state_->device_seconds; }
+
+std::size_t Context::pipeline_count() const {
+  return state_->kernels.size() + state_->raster_pipelines.size();
+}
+
+void Context::drop_unused_pipelines() {
+  state_->kernels.drop_unused();
+  state_->raster_pipelines.drop_unused();
+}
 
 std::vector<std::string> Context::take_validation_messages() {
   if (state_->log == nullptr) return {};
@@ -141,8 +153,11 @@ Timing Context::run(const std::function<void(Commands&)>& record) {
   submission.submit_and_wait(recording.commands);
   const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - start;
   check_zones(state);
-  if (!state.info.timestamps) return {.seconds = waited.count(), .passes = {}};
-  return timing_of(state, submission.read_timestamps(), recording.passes);
+  Timing timing{.seconds = waited.count(), .passes = {}};
+  if (state.info.timestamps)
+    timing = timing_of(state, submission.read_timestamps(), recording.passes);
+  state.device_seconds += timing.seconds;
+  return timing;
 }
 
 }  // namespace parity::gpu

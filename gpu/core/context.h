@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -48,8 +49,9 @@ enum class Guard { none, zones, fences };
 struct ContextOptions {
   std::string device;  ///< index or part of a name; empty: PARITY_DEVICE, else the fastest type
   bool validation = false;  ///< core + synchronization; throws if the layer is missing
-  /// With `validation`: the layer also checks each access of the shaders, reads too. They take up to
-  /// 40 times as long to compile and 15 times to run. Ignored where the device makes it err (Mesa 22).
+  /// With `validation`: the layer also checks each access of the shaders, reads too. They take up
+  /// to 40 times as long to compile and 15 times to run. Ignored where the device makes it err
+  /// (Mesa 22).
   bool gpu_assisted = false;
   Guard guard = Guard::none;
   double timeout_seconds = 120;  ///< for one submission
@@ -79,6 +81,14 @@ class Context {
   /// @return  seconds by the device's own clock; of the host's if it has none.
   /// @throws Error  device lost, out of memory, timed out, or a guard zone was written to.
   Timing run(const std::function<void(Commands&)>& record);
+
+  /// Seconds of all runs so far, as Timing::seconds counts them.
+  double device_seconds() const;
+
+  /// Pipelines stay built for the next Kernel or RasterPipeline of the same kind, as long as the
+  /// context lives; how many there are, and the end of those that nothing uses at the moment.
+  std::size_t pipeline_count() const;
+  void drop_unused_pipelines();
 
   /// All that the validation layer said since the last call, one message an entry.
   std::vector<std::string> take_validation_messages();

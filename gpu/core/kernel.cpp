@@ -109,11 +109,13 @@ void check_args(const ContextState& context, const char* name, std::uint32_t sha
                     std::to_string(context.properties.limits.maxPushConstantsSize));
 }
 
-RawKernel::RawKernel(Context& context, const ShaderCode& code, std::size_t args_bytes,
-                     const std::vector<Specialization>& specializations)
-    : state_(std::make_unique<State>()) {
-  ContextState& shared = context.state();
-  State& state = *state_;
+namespace {
+
+std::shared_ptr<const RawKernel::State> build(ContextState& shared, const ShaderCode& code,
+                                              std::size_t args_bytes,
+                                              const std::vector<Specialization>& specializations) {
+  const auto built = std::make_shared<RawKernel::State>();
+  RawKernel::State& state = *built;
   state.name = code.name;
   state.reflection = reflect(code);
   state.args_bytes = state.reflection.push_constant_bytes;
@@ -139,10 +141,18 @@ RawKernel::RawKernel(Context& context, const ShaderCode& code, std::size_t args_
       vkCreateComputePipelines(shared.link().device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
       "vkCreateComputePipelines");
   state.pipeline = OwnedPipeline(shared.link(), pipeline);
+  return built;
 }
 
-RawKernel::~RawKernel() = default;
-RawKernel::RawKernel(RawKernel&&) noexcept = default;
-RawKernel& RawKernel::operator=(RawKernel&&) noexcept = default;
+}  // namespace
+
+RawKernel::RawKernel(Context& context, const ShaderCode& code, std::size_t args_bytes,
+                     const std::vector<Specialization>& specializations) {
+  RasterOptions options;
+  options.specializations = specializations;
+  state_ = context.state().kernels.find({{&code, 1}, args_bytes, std::move(options)}, [&] {
+    return build(context.state(), code, args_bytes, specializations);
+  });
+}
 
 }  // namespace parity::gpu

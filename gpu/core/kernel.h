@@ -8,20 +8,18 @@
 
 namespace parity::gpu {
 
-/// A compute pipeline. Use Kernel<Args>.
+/// A compute pipeline. Use Kernel<Args>. Built once in a context: a second one of the same shader
+/// and specializations shares it.
 class RawKernel {
  public:
   RawKernel(Context& context, const ShaderCode& code, std::size_t args_bytes,
             const std::vector<Specialization>& specializations);
-  ~RawKernel();
-  RawKernel(RawKernel&&) noexcept;
-  RawKernel& operator=(RawKernel&&) noexcept;
 
   struct State;  // for gpu/core only
-  State* state() const { return state_.get(); }
+  const State* state() const { return state_.get(); }
 
  private:
-  std::unique_ptr<State> state_;
+  std::shared_ptr<const State> state_;
 };
 
 /// A compute pipeline whose push constants are one `Args` of a layout.h.

@@ -178,14 +178,13 @@ VkPipeline make_pipeline(const ContextState& context, const RasterOptions& optio
   return pipeline;
 }
 
-}  // namespace
-
-RawRasterPipeline::RawRasterPipeline(Context& context, const ShaderCode& vertex,
-                                     const ShaderCode& fragment, std::size_t args_bytes,
-                                     const RasterOptions& options)
-    : state_(std::make_unique<State>()) {
-  ContextState& shared = context.state();
-  State& state = *state_;
+std::shared_ptr<const RawRasterPipeline::State> build(ContextState& shared,
+                                                      const ShaderCode& vertex,
+                                                      const ShaderCode& fragment,
+                                                      std::size_t args_bytes,
+                                                      const RasterOptions& options) {
+  const auto built = std::make_shared<RawRasterPipeline::State>();
+  RawRasterPipeline::State& state = *built;
   state.name = std::string(vertex.name) + " + " + fragment.name;
   state.options = options;
   check_options(shared, options);
@@ -210,10 +209,18 @@ RawRasterPipeline::RawRasterPipeline(Context& context, const ShaderCode& vertex,
       stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, fragment_shader, constants)};
   state.pipeline =
       OwnedPipeline(shared.link(), make_pipeline(shared, options, stages, state.layout.get()));
+  return built;
 }
 
-RawRasterPipeline::~RawRasterPipeline() = default;
-RawRasterPipeline::RawRasterPipeline(RawRasterPipeline&&) noexcept = default;
-RawRasterPipeline& RawRasterPipeline::operator=(RawRasterPipeline&&) noexcept = default;
+}  // namespace
+
+RawRasterPipeline::RawRasterPipeline(Context& context, const ShaderCode& vertex,
+                                     const ShaderCode& fragment, std::size_t args_bytes,
+                                     const RasterOptions& options) {
+  const ShaderCode both[] = {vertex, fragment};
+  state_ = context.state().raster_pipelines.find({both, args_bytes, options}, [&] {
+    return build(context.state(), vertex, fragment, args_bytes, options);
+  });
+}
 
 }  // namespace parity::gpu

@@ -35,22 +35,21 @@ struct RasterOptions {
   Primitive primitive = Primitive::triangles;
   int samples = 1;
   std::vector<Specialization> specializations;  ///< for both stages
+  bool operator==(const RasterOptions&) const = default;
 };
 
-/// A vertex + fragment pipeline. Use RasterPipeline<Args>.
+/// A vertex + fragment pipeline. Use RasterPipeline<Args>. Built once in a context: a second one of
+/// the same shaders and options shares it.
 class RawRasterPipeline {
  public:
   RawRasterPipeline(Context& context, const ShaderCode& vertex, const ShaderCode& fragment,
                     std::size_t args_bytes, const RasterOptions& options);
-  ~RawRasterPipeline();
-  RawRasterPipeline(RawRasterPipeline&&) noexcept;
-  RawRasterPipeline& operator=(RawRasterPipeline&&) noexcept;
 
   struct State;  // for gpu/core only
-  State* state() const { return state_.get(); }
+  const State* state() const { return state_.get(); }
 
  private:
-  std::unique_ptr<State> state_;
+  std::shared_ptr<const State> state_;
 };
 
 /// Vertices are pulled through buffer references by gl_VertexIndex; `Args` are the push constants

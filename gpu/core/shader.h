@@ -35,6 +35,7 @@ ShaderReflection reflect(const ShaderCode& code);
 struct Specialization {
   std::uint32_t id = 0;
   std::uint32_t value = 0;
+  bool operator==(const Specialization&) const = default;
 };
 
 }  // namespace parity::gpu

@@ -1,14 +1,10 @@
 #pragma once
 
-#include <volk.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <list>
-#include <map>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,74 +14,14 @@
 #include "gpu/core/context.h"
 #include "gpu/core/image.h"
 #include "gpu/core/kernel.h"
+#include "gpu/core/pipeline_cache.h"
 #include "gpu/core/raster_pipeline.h"
 #include "gpu/core/shader.h"
+#include "gpu/core/vulkan_handles.h"
+#include "gpu/core/vulkan_memory.h"
 
 // What stands behind the classes of gpu/core: Vulkan's handles. Only gpu/core/*.cpp include this.
 namespace parity::gpu {
-
-/// The name of a result, e.g. "VK_ERROR_DEVICE_LOST".
-std::string result_name(VkResult result);
-
-/// @throws Error  of the kind that fits, naming the call and the result, if the result is an error.
-void check(VkResult result, const char* call);
-
-/// The device, and whether it was given up on: work that never ends runs on it, so that nothing of
-/// it can be destroyed any more.
-struct DeviceLink {
-  VkDevice device = VK_NULL_HANDLE;
-  bool abandoned = false;
-};
-
-/// Owns a handle that a device made. `destroy` is the pointer that volk fills.
-template <typename T, auto* destroy>
-class Owned {
- public:
-  Owned() = default;
-  Owned(const DeviceLink& link, T handle) : link_(&link), handle_(handle) {}
-  ~Owned() { reset(); }
-  Owned(Owned&& other) noexcept
-      : link_(other.link_), handle_(std::exchange(other.handle_, VK_NULL_HANDLE)) {}
-  Owned& operator=(Owned&& other) noexcept {
-    std::swap(link_, other.link_);
-    std::swap(handle_, other.handle_);
-    return *this;
-  }
-  T get() const { return handle_; }
-  explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
-
- private:
-  void reset() {
-    if (handle_ != VK_NULL_HANDLE && !link_->abandoned) (*destroy)(link_->device, handle_, nullptr);
-    handle_ = VK_NULL_HANDLE;
-  }
-
-  const DeviceLink* link_ = nullptr;
-  T handle_ = VK_NULL_HANDLE;
-};
-
-using OwnedMemory = Owned<VkDeviceMemory, &vkFreeMemory>;
-using OwnedBuffer = Owned<VkBuffer, &vkDestroyBuffer>;
-using OwnedImage = Owned<VkImage, &vkDestroyImage>;
-using OwnedImageView = Owned<VkImageView, &vkDestroyImageView>;
-using OwnedSampler = Owned<VkSampler, &vkDestroySampler>;
-using OwnedShader = Owned<VkShaderModule, &vkDestroyShaderModule>;
-using OwnedSetLayout = Owned<VkDescriptorSetLayout, &vkDestroyDescriptorSetLayout>;
-using OwnedPipelineLayout = Owned<VkPipelineLayout, &vkDestroyPipelineLayout>;
-using OwnedPipeline = Owned<VkPipeline, &vkDestroyPipeline>;
-using OwnedCommandPool = Owned<VkCommandPool, &vkDestroyCommandPool>;
-using OwnedFence = Owned<VkFence, &vkDestroyFence>;
-using OwnedQueryPool = Owned<VkQueryPool, &vkDestroyQueryPool>;
-using OwnedDescriptorPool = Owned<VkDescriptorPool, &vkDestroyDescriptorPool>;
-
-/// Calls a vkCreate* of the usual form and owns what it made.
-template <typename Handle, typename Create, typename CreateInfo>
-Handle create(const DeviceLink& link, Create function, const CreateInfo& info, const char* call) {
-  using Raw = decltype(std::declval<Handle>().get());
-  Raw raw = VK_NULL_HANDLE;
-  check(function(link.device, &info, nullptr, &raw), call);
-  return Handle(link, raw);
-}
 
 // ---- validation.cpp ----
 
@@ -138,78 +74,6 @@ class Device {
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
   DeviceLink link;
-};
-
-// ---- memory.cpp ----
-
-struct MemoryBlock;
-
-/// A part of a block of device memory.
-struct Allocation {
-  MemoryBlock* block = nullptr;
-  VkDeviceMemory memory = VK_NULL_HANDLE;
-  VkDeviceSize offset = 0;
-  VkDeviceSize bytes = 0;
-  std::byte* mapped = nullptr;  ///< null: the host cannot see it
-};
-
-enum class MemoryUse {
-  fast,     ///< the device's own; the host may not see it
-  shared,   ///< the device's own and seen by the host
-  staging,  ///< the host's own
-};
-
-struct MemoryBlock {
-  OwnedMemory memory;
-  VkDeviceSize bytes = 0;
-  std::uint32_t type = 0;
-  bool for_buffers = false;
-  std::byte* mapped = nullptr;
-  std::map<VkDeviceSize, VkDeviceSize> free;  ///< offset to size
-};
-
-/// Hands out parts of larger allocations: drivers limit how many there are.
-class MemoryPool {
- public:
-  MemoryPool(const DeviceLink& link, VkPhysicalDevice physical);
-
-  /// @throws Error  (out_of_memory) the heap is smaller than what would then be in use.
-  Allocation allocate(const VkMemoryRequirements& needs, MemoryUse use, bool for_buffers);
-  void free(const Allocation& allocation);
-  std::optional<std::uint32_t> find_type(std::uint32_t allowed, VkMemoryPropertyFlags required,
-                                         VkMemoryPropertyFlags preferred) const;
-
- private:
-  std::uint32_t choose_type(std::uint32_t allowed, MemoryUse use) const;
-  MemoryBlock& new_block(std::uint32_t type, VkDeviceSize bytes, bool for_buffers);
-
-  const DeviceLink& link_;
-  VkPhysicalDeviceMemoryProperties properties_{};
-  std::list<MemoryBlock> blocks_;
-  std::vector<VkDeviceSize> heap_used_;
-};
-
-/// Owns an allocation of a pool.
-class OwnedAllocation {
- public:
-  OwnedAllocation() = default;
-  OwnedAllocation(MemoryPool& pool, const Allocation& allocation)
-      : pool_(&pool), allocation_(allocation) {}
-  ~OwnedAllocation() {
-    if (pool_ != nullptr) pool_->free(allocation_);
-  }
-  OwnedAllocation(OwnedAllocation&& other) noexcept
-      : pool_(std::exchange(other.pool_, nullptr)), allocation_(other.allocation_) {}
-  OwnedAllocation& operator=(OwnedAllocation&& other) noexcept {
-    std::swap(pool_, other.pool_);
-    std::swap(allocation_, other.allocation_);
-    return *this;
-  }
-  const Allocation& get() const { return allocation_; }
-
- private:
-  MemoryPool* pool_ = nullptr;
-  Allocation allocation_;
 };
 
 // ---- submission.cpp ----
@@ -275,10 +139,13 @@ struct ContextState {
   std::optional<MemoryPool> memory;
   std::optional<Submission> submission;
   std::optional<OwnedSampler> nearest;  ///< for sampled images without a sampler
+  PipelineCache<RawKernel::State> kernels;
+  PipelineCache<RawRasterPipeline::State> raster_pipelines;
   MemoryBuffer staging;
   std::list<RawBuffer::State*> guarded;  ///< buffers whose zones are checked after each run
   std::uint64_t memory_bytes = 0;
   std::uint64_t peak_memory_bytes = 0;
+  double device_seconds = 0;
   bool recording = false;
 
   const DeviceLink& link() const { return device->link; }
