@@ -210,7 +210,8 @@ TEST(RasterReference, DepthImagesHoldTheDepthOfTheSeenPoint) {
   for (const DepthMode mode : {DepthMode::standard, DepthMode::reverse_z, DepthMode::logarithmic}) {
     const View view = random_view(96, 40, mode, 5);
     const DepthImage image = cpu::depth_test(view.list, mode, 1.0, 100.0, Snapping::mesa);
-    const Grid<double> bound = cpu::depth_bound(view.list, mode, 1.0, 100.0, Snapping::mesa);
+    const Grid<double> bound =
+        cpu::depth_bound(view.list, image.front, mode, {1.0, 100.0}, Snapping::mesa);
     int judged = 0;
     for (int y = 0; y < 96; ++y)
       for (int x = 0; x < 96; ++x) {

@@ -107,9 +107,8 @@ DepthImage depth_test(const TriangleList& list, DepthMode mode, double near, dou
   return image;
 }
 
-Grid<double> depth_bound(const TriangleList& list, DepthMode mode, double near, double far,
-                         Snapping snapping) {
-  const Grid<std::uint32_t> front = depth_test(list, mode, near, far, snapping).front;
+Grid<double> depth_bound(const TriangleList& list, const Grid<std::uint32_t>& front, DepthMode mode,
+                         dvec2 near_far, Snapping snapping) {
   Grid<double> bounds{list.width, list.height, std::numeric_limits<double>::quiet_NaN()};
   for (int y = 0; y < list.height; ++y)
     for (int x = 0; x < list.width; ++x) {
@@ -124,9 +123,9 @@ Grid<double> depth_bound(const TriangleList& list, DepthMode mode, double near, 
       }
       const double reciprocal_w = std::abs(planes.reciprocal_w.at(x + 0.5, y + 0.5));
       const double relative = bound(planes.reciprocal_w, 1.0 / w) / reciprocal_w + 8.0 * 0x1p-23;
-      const double log_of_distance = std::abs(std::log2(1.0 / (reciprocal_w * near)));
+      const double log_of_distance = std::abs(std::log2(1.0 / (reciprocal_w * near_far.x)));
       bounds(x, y) = (relative / std::log(2.0) + 0x1p-21 + 3.0 * 0x1p-23 * log_of_distance) /
-                         std::log2(far / near) +
+                         std::log2(near_far.y / near_far.x) +
                      8.0 * 0x1p-23;
     }
   return bounds;

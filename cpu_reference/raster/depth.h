@@ -46,12 +46,16 @@ double depth_step_measured(DepthMode mode, double near, double far, double dista
 DepthImage depth_test(const TriangleList& list, DepthMode mode, double near, double far,
                       Snapping snapping);
 
-/// How far a device's depth may be from that of depth_test where both see the same triangle; NaN
-/// where nothing is. As interpolate_bound for z / w; logarithmic adds the error of log2, 3 ULP or
-/// 2^-21, over log2(far / near).
+/// How far a device's depth of one triangle a pixel may be from that of depth_test. As
+/// interpolate_bound for z / w; logarithmic adds the error of log2, 3 ULP or 2^-21, over
+/// log2(far / near).
+///
+/// @param front     1 + the triangle at each pixel; 0: none.
+/// @param near_far  m.
+/// @return          NaN where nothing is.
 ///
 /// Source: conformance 1.2, 1.3.
-Grid<double> depth_bound(const TriangleList& list, DepthMode mode, double near, double far,
-                         Snapping snapping);
+Grid<double> depth_bound(const TriangleList& list, const Grid<std::uint32_t>& front, DepthMode mode,
+                         dvec2 near_far, Snapping snapping);
 
 }  // namespace parity::cpu
