@@ -1,10 +1,10 @@
 #include "geometry/frame.h"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
+
+#include "geometry/framing_camera.h"
 
 namespace parity {
 namespace {
@@ -49,11 +49,6 @@ int camera_node(const Scene& scene, const std::string& wanted) {
   return -1;
 }
 
-struct PlacedCamera {
-  Camera camera;
-  dmat4 world_from_view{1.0};
-};
-
 /// Rotation part without scale; columns of unit length. Falls back to no rotation if singular.
 dmat4 without_scale(const dmat4& m) {
   dmat4 rigid = m;
@@ -65,33 +60,20 @@ dmat4 without_scale(const dmat4& m) {
   return std::abs(glm::determinant(dmat3(rigid))) > 1e-6 ? rigid : dmat4(1.0);
 }
 
-/// Looks at the middle of the box from the front right above, far enough to see its sphere.
-PlacedCamera framing_camera(const Scene& scene, double aspect) {
-  const Bounds bounds = world_bounds(scene);
-  const dvec3 middle = bounds.empty ? dvec3(0.0) : 0.5 * (bounds.min + bounds.max);
-  double radius = 0.5 * glm::length(bounds.max - bounds.min);
-  if (!(radius > 1e-30) || !std::isfinite(radius)) radius = 1;
-  Camera camera;
-  camera.name = "framed";
-  camera.vertical_fov = std::numbers::pi / 6;
-  const double narrow =
-      std::min(camera.vertical_fov, 2 * std::atan(std::tan(camera.vertical_fov / 2) * aspect));
-  const double distance = 1.05 * radius / std::sin(narrow / 2);
-  camera.near = std::max(distance - 1.5 * radius, 1e-3 * distance);
-  camera.far = distance + 1.5 * radius;
-  const dvec3 backward = glm::normalize(dvec3(0.45, 0.35, 1.0));
-  const dvec3 right = glm::normalize(glm::cross(dvec3(0, 1, 0), backward));
-  const dvec3 up = glm::cross(backward, right);
-  return {camera, dmat4(dvec4(right, 0), dvec4(up, 0), dvec4(backward, 0),
-                        dvec4(middle + distance * backward, 1))};
-}
-
 PlacedCamera place_camera(const Scene& scene, const std::vector<dmat4>& world,
                           const FrameOptions& options, double aspect) {
   const int node = camera_node(scene, options.camera);
-  if (node < 0) return framing_camera(scene, aspect);
+  if (node < 0) return framing_camera(scene, world, aspect);
   const Node& n = scene.nodes[std::size_t(node)];
   return {scene.cameras[std::size_t(n.camera)], without_scale(world[std::size_t(node)])};
+}
+
+/// log2(z / n) / log2(f / n) is a depth of perspective cameras with a far plane only.
+void check_depth(const Camera& camera, DepthMode depth) {
+  if (depth != DepthMode::logarithmic || (!camera.orthographic && camera.far)) return;
+  throw std::invalid_argument("depth is logarithmic, but camera '" + camera.name + "' " +
+                              (camera.orthographic ? "is orthographic" : "has no far plane") +
+                              "; must be a perspective one with a far plane");
 }
 
 Draw make_draw(const dmat4& world_from_object, const dmat4& clip_from_world) {
@@ -135,6 +117,7 @@ Frame make_frame(const Scene& scene, const FrameOptions& options) {
   const double aspect = double(options.width) / options.height;
   const std::vector<dmat4> world = world_from_nodes(scene);
   const PlacedCamera placed = place_camera(scene, world, options, aspect);
+  check_depth(placed.camera, options.depth);
   frame.view_from_world = glm::inverse(placed.world_from_view);
   frame.clip_from_view = clip_from_view(placed.camera, aspect, options.depth);
   frame.eye = dvec3(placed.world_from_view[3]);

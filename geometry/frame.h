@@ -55,10 +55,11 @@ struct Frame {
   vec3 ambient{0.0f};  ///< radiance of the uniform environment, linear RGB, W/(m^2 sr)
 };
 
-/// Places everything. Without a camera: a perspective one that shows the whole scene. Without a
+/// Places everything. Without a camera: framing_camera. Without a
 /// light (and no emission or unlit material to see by): a key light and a uniform environment.
 ///
-/// @throws std::invalid_argument  a size outside 1..16384, samples not 1, 2, 4, 8, no such camera.
+/// @throws std::invalid_argument  a size outside 1..16384, samples not 1, 2, 4, 8, no such camera;
+///                                logarithmic depth with an orthographic or infinite one.
 Frame make_frame(const Scene& scene, const FrameOptions& options);
 
 /// A renderer's answer. Linear RGB, alpha 0 where only background is.

@@ -291,7 +291,8 @@ TEST(CpuRenderer, RendersAnEmptySceneAsBackground) {
 
 TEST(CpuRenderer, RefusesLogarithmicDepthWithoutAFarPlane) {
   const SmallScene stage;
-  Frame frame = stage.frame(5, 1, DepthMode::logarithmic);
+  Frame frame = stage.frame(5);
+  frame.options.depth = DepthMode::logarithmic;
   frame.far = 0;
   EXPECT_THROW(cpu::render(stage.scene, frame), std::invalid_argument);
 }

@@ -111,6 +111,34 @@ TEST(MakeFrame, TurnsNormalsByTheInverseTranspose) {
   EXPECT_LT(world_normal.x, 0);  // (1, 1, 0) mirrored in x still points out of the same side
 }
 
+// Seen from the front of what is single-sided, mirrored or not; else from the usual side.
+TEST(MakeFrame, FramesTheFrontOfATriangle) {
+  Scene scene = one_triangle();
+  for (const double mirror : {1.0, -1.0})
+    for (const bool double_sided : {false, true}) {
+      scene.materials = {{.double_sided = double_sided}};
+      scene.meshes[0].primitives[0].material = 0;
+      scene.nodes[0].parent_from_node = dmat4(1.0);
+      scene.nodes[0].parent_from_node[2] *= mirror;
+      const Frame frame = make_frame(scene, {});
+      EXPECT_EQ(frame.eye.z > 0, mirror > 0 || double_sided);
+      EXPECT_GT(frame.eye.x, 0);
+    }
+}
+
+TEST(MakeFrame, RefusesLogarithmicDepthWithoutAPerspectiveOrAFarPlane) {
+  Scene scene = one_triangle();
+  scene.cameras = {{.name = "flat", .orthographic = true, .far = 9.0}, {.name = "endless"}};
+  scene.nodes.resize(3);
+  scene.nodes[1].camera = 0;
+  scene.nodes[2].camera = 1;
+  for (const auto& camera : {"flat", "endless"}) {
+    EXPECT_THROW(make_frame(scene, {.camera = camera, .depth = DepthMode::logarithmic}),
+                 std::invalid_argument);
+    EXPECT_NO_THROW(make_frame(scene, {.camera = camera}));
+  }
+}
+
 TEST(MakeFrame, NamesTheCamerasThereAre) {
   Scene scene = one_triangle();
   scene.cameras.push_back({.name = "front"});

@@ -17,7 +17,7 @@ struct Axis {
   double standard = 0;
   bool logarithmic = false;  ///< steps are equal in the logarithm
   bool whole = false;        ///< only whole numbers
-  bool each = false;         ///< its whole numbers stand for kinds: every one is checked
+  bool each = false;         ///< its whole numbers (logarithmic: doublings) stand for kinds
 };
 
 /// A value for each axis of a stage, and the seed of what is random.
@@ -50,8 +50,8 @@ struct NamedSetting {
   Setting setting;
 };
 
-/// The standard setting and both ends of every axis (each value of those of kinds), without
-/// repetition.
+/// The standard setting and both ends of every axis, without repetition. Of axes of kinds and those
+/// of at most four whole numbers every value.
 std::vector<NamedSetting> conformance_settings(std::span<const Axis> axes);
 
 /// `count` values from low to high, both included; fewer where whole numbers coincide.

@@ -15,9 +15,11 @@ std::string known_axes(const std::vector<std::pair<std::string, double>>& values
 }
 
 std::vector<double> checked_values(const Axis& axis) {
-  if (!axis.each) return {axis.low, axis.high};
+  const bool few = axis.whole && !axis.logarithmic && axis.high - axis.low < 4;
+  if (!axis.each && !few) return {axis.low, axis.high};
   std::vector<double> values;
-  for (double value = axis.low; value <= axis.high; ++value) values.push_back(value);
+  for (double value = axis.low; value <= axis.high; value += axis.logarithmic ? value : 1)
+    values.push_back(value);
   return values;
 }
 

@@ -136,7 +136,8 @@ const Registration registration = register_stage<RenderProblem, Verdict>({
               .high = 8,
               .standard = 4,
               .logarithmic = true,
-              .whole = true},
+              .whole = true,
+              .each = true},
              {.name = "objects", .low = 0, .high = 24, .standard = 12, .whole = true},
              {.name = "depth_mode", .low = 0, .high = 2, .standard = 1, .whole = true}},
     .problem =

@@ -157,8 +157,13 @@ Axis kind_axis(Kind last) {
 }
 
 Axis samples_axis() {
-  return {
-      .name = "samples", .low = 1, .high = 8, .standard = 4, .logarithmic = true, .whole = true};
+  return {.name = "samples",
+          .low = 1,
+          .high = 8,
+          .standard = 4,
+          .logarithmic = true,
+          .whole = true,
+          .each = true};
 }
 
 Axis side_axis() {
