@@ -1,5 +1,7 @@
 #include "cpu_reference/sph/forces.h"
 
+#include <algorithm>
+
 #include "cpu_reference/sph/density.h"
 #include "cpu_reference/sph/kernel.h"
 
@@ -59,7 +61,10 @@ std::vector<dvec3> sum_accelerations(const SphProblem& problem, const SphNeighbo
     for (const std::uint32_t j : neighbours.walls[i]) {
       const Pair pair = pair_of(p, at - dvec3(problem.boundary[j]), v);
       const double wall = p.rest_density * volumes[j];
-      result[i] -= wall * pressed(i) * pair.gradient;
+      // The wall answers with the particle's own pressure, carried to the wall's depth.
+      const double depth = glm::dot(p.gravity, pair.apart);
+      const double answer = with_pressure ? std::max(0.0, pressed(i) - depth / rho[i]) : 0.0;
+      result[i] -= wall * (pressed(i) + answer) * pair.gradient;
       result[i] += friction(p, pair, wall, rho[i]);
     }
   }

@@ -54,6 +54,28 @@ double slope_integral(const SphParameters& p, double scale, int power) {
   return scale * (d == 3 ? 4 : 2) * pi * std::pow(p.support, d - 1 - power) * sum;
 }
 
+/// Sum of the profile over a row or plane of the lattice that is `layer` spacings away.
+double layer_sum(const SphParameters& p, int layer) {
+  const int reach = int(std::ceil(p.support / p.spacing));
+  const int reach_z = p.dimensions == 3 ? reach : 0;
+  double sum = 0;
+  for (int z = -reach_z; z <= reach_z; ++z)
+    for (int x = -reach; x <= reach; ++x) {
+      const double q = p.spacing * std::sqrt(double(x * x + z * z + layer * layer)) / p.support;
+      if (q < 1) sum += profile(p.kernel, q);
+    }
+  return sum;
+}
+
+/// Of the volume of a wall particle, so that fluid a spacing from a flat wall is at rest density:
+/// one layer stands for all that the lattice would have behind it.
+double wall_share(const SphParameters& p, double scale, double volume) {
+  double behind = 0;
+  for (int layer = 1; layer * p.spacing < p.support; ++layer) behind += layer_sum(p, layer);
+  const double alone = layer_sum(p, 1) / (layer_sum(p, 0) * scale);
+  return alone > 0 ? behind * volume / alone : 0;
+}
+
 SphGrid grid_of(const SphProblem& problem) {
   const SphParameters& p = problem.parameters;
   const bool solid = p.dimensions == 3;
@@ -96,6 +118,7 @@ SphConstants sph_constants(const SphProblem& problem) {
   c.artificial = float(artificial);
   c.tension = float(p.surface_tension * volume);
   c.softening = float(0.01 * p.support * p.support / 4);
+  c.wall_share = float(wall_share(p, scale, volume));
   c.wave_rate = float(slope_integral(p, scale, 0));
   c.viscous_rate = float(2 * (laminar + artificial) / d * slope_integral(p, scale, 1));
   c.tension_rate = float(2 * p.surface_tension * (1 + d));

@@ -4,7 +4,7 @@
 #include "sph/kernel.glsl"
 
 // How much fluid a wall particle stands for: the more crowded, the less; one thread a wall
-// particle. Source: Akinci et al. 2012.
+// particle. Source: Akinci et al. 2012, with a share that fits them to the lattice at rest.
 layout(local_size_x = 64) in;
 layout(scalar, push_constant) uniform Push { BoundaryVolumeArgs args; };
 
@@ -25,5 +25,5 @@ void main() {
       }
     }
   }
-  args.weighted.at[i] = vec4(p, c.rest_density / sum);
+  args.weighted.at[i] = vec4(p, c.rest_density * c.wall_share / sum);
 }

@@ -26,12 +26,14 @@ vec3 fluid_acceleration(SphConstants c, vec4 place_i, vec4 motion_i, vec4 place_
   return result;
 }
 
-/// From a wall particle at rest; wall.w: rest density times its volume.
+/// From a wall particle at rest, which answers with the pressure of the particle that it sees, at
+/// its own depth; wall.w: rest density times its volume. Source: Adami et al. 2012, one to one.
 vec3 wall_acceleration(SphConstants c, vec4 place, vec4 motion, vec4 wall) {
   precise const vec3 d = place.xyz - wall.xyz;
   precise const float r2 = squared_length(d);
   precise const float slope = kernel_slope(r2, c.support, c.kernel_scale);
+  precise const float answer = max(motion.w - inner_product(c.gravity, d) / place.w, 0.0);
   precise const float viscous = viscous_factor(c, d, motion.xyz, r2, wall.w / place.w);
-  precise const vec3 result = (viscous - wall.w * motion.w) * slope * d;
+  precise const vec3 result = (viscous - wall.w * (motion.w + answer)) * slope * d;
   return result;
 }

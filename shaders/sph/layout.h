@@ -30,6 +30,7 @@ struct SphConstants {
   float artificial;    ///< alpha c h
   float tension;       ///< kappa times the volume at rest
   float softening;     ///< 0.01 h^2
+  float wall_share;    ///< of a wall particle's volume that counts, so that fluid at rest fits
   float wave_rate;     ///< bound of omega / c of sound waves, 1/m
   float viscous_rate;  ///< bound of the decay rate of the explicit viscosity, 1/s
   float tension_rate;  ///< bound of omega^2 of the surface tension, 1/s^2
