@@ -141,6 +141,7 @@ PressureProblem make_pressure_problem(ivec3 cells, PressureCase kind, double tol
   if (is_singular(problem)) remove_mean(problem, problem.rhs);
   std::ranges::fill(problem.guess.values, 0.0);
   problem.tolerance = tolerance * largest_magnitude(problem.rhs);
+  problem.max_iterations = 1000;
   return problem;
 }
 

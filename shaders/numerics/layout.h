@@ -1,0 +1,133 @@
+// What the kernels of the numerics chapter and their hosts share. Fields only.
+//
+// Pressure is stored by colour, as red-black iterations read it: first all cells with x + y + z even
+// (red), then all others (black). A row of cells along x holds, for each colour, every second cell;
+// four of those are a quad. Quad i of a row holds the cells x = 8 i + s + (0, 2, 4, 6), s the parity
+// of y + z + colour. Rows are padded to whole quads; cells beyond the row are 0 and stay 0.
+#ifndef PARITY_NUMERICS_LAYOUT_H
+#define PARITY_NUMERICS_LAYOUT_H
+
+#include "../shared.h"
+
+#ifdef __cplusplus
+namespace parity {
+#endif
+
+struct PressureQuad {
+  vec4 cells;
+};
+REF_TYPE(PressureQuad, 16)
+
+/// Two cells of a quad.
+struct PressurePair {
+  vec2 cells;
+};
+REF_TYPE(PressurePair, 8)
+
+/// Of four cells: their open fractions in steps of 1/31, 5 bits for each of -x +x -y +y -z +z from
+/// bit 0 on, and the bits pressure_fluid and pressure_air.
+struct PressureWords {
+  uvec4 cells;
+};
+REF_TYPE(PressureWords, 16)
+
+const uint pressure_fluid = 1u << 30;
+const uint pressure_air = 1u << 31;
+
+/// Bits of PressureLevel::flags: side k (-x +x -y +y -z +z) is open or periodic: 1 << k; axis a is
+/// periodic: 64 << a.
+const uint pressure_periodic = 64u;
+
+/// One grid of a hierarchy. `words` is used where the kernel is specialised for cells that differ;
+/// without, all cells are fluid and all faces inside are open.
+struct PressureLevel {
+  uvec3 cells;
+  uint flags;
+  REF(PressureQuad) pressure;
+  REF(PressureQuad) rhs;
+  REF(PressureWords) words;
+  uint row;  ///< quads of one colour in a row
+  /// Weight of an open side: pressure is 0 half a cell of the finest grid outside it, which is less
+  /// than a cell of a coarse grid away.
+  float open_weight;
+};
+REF_TYPE(PressureLevel, 8)
+
+/// Numbers that an iteration leaves for the next command. Zeros begin a solve.
+struct SolverControl {
+  uint done;        ///< what follows is skipped
+  uint iterations;
+  float residual;   ///< largest |rhs - A p|
+  float tolerance;
+  float rho;        ///< z . r
+  float alpha;
+  float beta;
+  float mean;
+};
+REF_TYPE(SolverControl, 4)
+
+struct SweepArgs {
+  PressureLevel level;
+  REF(PressureQuad) result;
+  REF(float) partials;  ///< one a thread
+  REF(SolverControl) control;
+  uint colour;
+  uint run;  ///< cells along z a thread
+  float omega;
+  uint padding;
+};
+
+struct TransferArgs {
+  PressureLevel fine;
+  PressureLevel coarse;
+  REF(SolverControl) control;
+  uint mode;
+  uint padding;
+};
+
+struct SmallCycleArgs {
+  REF(PressureLevel) levels;
+  REF(SolverControl) control;
+  uint first;   ///< level to begin with
+  uint count;   ///< of all levels
+  uint cycles;  ///< at most; 0: one cycle from a zero guess, unmeasured
+  uint sweeps;  ///< on the coarsest level
+};
+
+struct VectorArgs {
+  REF(PressureQuad) x;
+  REF(PressureQuad) x_low;  ///< what x is too coarse to hold
+  REF(PressureQuad) d;
+  REF(PressureQuad) r;
+  REF(PressureQuad) q;
+  REF(PressureQuad) z;
+  REF(PressureWords) words;
+  REF(float) partials;  ///< two a thread
+  REF(SolverControl) control;
+  uint quads;
+  uint run;  ///< quads a thread
+  uint mode;
+  uint padding;
+};
+
+struct ReduceArgs {
+  REF(float) partials;
+  REF(SolverControl) control;
+  uint count;
+  uint mode;
+};
+
+struct PackArgs {
+  PressureLevel level;
+  REF(uint) types;  ///< CellType of each cell, x fastest
+  REF(float) open_x;
+  REF(float) open_y;
+  REF(float) open_z;
+  uint all_fluid;  ///< types are not read
+  uint padding;
+};
+
+#ifdef __cplusplus
+}  // namespace parity
+#endif
+#endif

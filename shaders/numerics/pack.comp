@@ -1,0 +1,37 @@
+#version 460
+#include "numerics/layout.h"
+#include "numerics/words.glsl"
+
+// The words of the finest grid from the types of cells and the open parts of faces; one thread a
+// cell. Source: numerics/layout.h.
+layout(local_size_x = 64) in;
+layout(scalar, push_constant) uniform Push { PackArgs args; };
+
+uint steps_of(float open) { return uint(open * 31.0 + 0.5); }
+
+uint face(uvec3 cell, uint axis) {
+  const uvec3 size = args.level.cells + uvec3(axis == 0u, axis == 1u, axis == 2u);
+  const uint at = (cell.z * size.y + cell.y) * size.x + cell.x;
+  return steps_of(axis == 0u ? args.open_x.at[at]
+                             : (axis == 1u ? args.open_y.at[at] : args.open_z.at[at]));
+}
+
+void main() {
+  const uint slot = gl_GlobalInvocationID.x;
+  if (slot >= slot_count(args.level)) return;
+  uvec3 cell;
+  if (!cell_of_slot(args.level, slot, cell)) {
+    ref_uint(args.level.words).at[slot] = 0u;
+    return;
+  }
+  const uvec3 n = args.level.cells;
+  const uint type = args.all_fluid != 0u ? 0u : args.types.at[(cell.z * n.y + cell.y) * n.x + cell.x];
+  uint word = type == 0u ? pressure_fluid : (type == 1u ? pressure_air : 0u);
+  for (uint axis = 0u; axis < 3u; ++axis) {
+    const uvec3 step = uvec3(axis == 0u, axis == 1u, axis == 2u);
+    word |= face(cell, axis) << (10u * axis);
+    word |= face(cell + step, axis) << (10u * axis + 5u);
+  }
+  if ((word & 0x3fffffffu) == 0u) word &= ~pressure_fluid;
+  ref_uint(args.level.words).at[slot] = word;
+}
