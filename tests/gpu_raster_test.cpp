@@ -7,9 +7,7 @@
 #include <random>
 
 #include "gpu/raster/blend.h"
-#include "gpu/raster/bresenham.h"
 #include "gpu/raster/clip.h"
-#include "gpu/raster/dda_line.h"
 #include "gpu/raster/depth.h"
 #include "gpu/raster/edge_coverage.h"
 #include "gpu/raster/encode_srgb.h"
@@ -283,52 +281,6 @@ TEST(GpuViewport, TakesCornersOfTheViewToThoseOfTheWindow) {
   EXPECT_EQ(window[0], vec4(0, 0, 0, 0.5f));
   EXPECT_EQ(window[1], vec4(131, 77, 1, 1));
   EXPECT_EQ(window[2], vec4(65.5f, 38.5f, 0.5f, 0.25f));
-}
-
-TEST(GpuLines, StayWithinHalfAPixelInAllOctants) {
-  std::vector<Segment> segments{{{5, 5}, {5, 5}}};
-  for (int y = -9; y <= 9; ++y)
-    for (int x = -9; x <= 9; ++x) segments.push_back({{3, -2}, {3 + 2 * x, -2 + 3 * y}});
-  const auto bresenham = gpu::bresenham(test_context(), segments);
-  const auto dda = gpu::dda_line(test_context(), segments);
-  for (std::size_t i = 0; i < segments.size(); ++i)
-    for (const std::vector<ivec2>& line : {bresenham[i], dda[i]}) {
-      const ivec2 d = segments[i].end - segments[i].begin;
-      const int steps = std::max(std::abs(d.x), std::abs(d.y));
-      ASSERT_EQ(line.size(), std::size_t(steps) + 1);
-      EXPECT_EQ(line.front(), segments[i].begin);
-      EXPECT_EQ(line.back(), segments[i].end);
-      for (int k = 0; k <= steps && steps > 0; ++k) {
-        const dvec2 ideal = dvec2(segments[i].begin) + dvec2(d) * (double(k) / steps);
-        const dvec2 off = glm::abs(dvec2(line[std::size_t(k)]) - ideal);
-        EXPECT_LE(std::max(off.x, off.y), 0.5 + 1e-5);
-      }
-    }
-  const std::vector<Segment> long_line{{{0, 0}, {70000, 1}}};
-  EXPECT_THROW(gpu::bresenham(test_context(), long_line), std::invalid_argument);
-}
-
-// Fixed point moves corners by up to half a unit in x and y: centres further than sqrt(2) units
-// from the border of the rectangle are decided.
-TEST(GpuLines, AreRectanglesOnTheDeviceToo) {
-  const vec2 begin(3.3f, 4.6f), end(40.2f, 17.9f);
-  const Grid<std::uint8_t> hardware = gpu::hardware_line(test_context(), begin, end, 48, 24);
-  const Grid<std::uint8_t> compute = gpu::wide_line(test_context(), begin, end, 1, 48, 24);
-  const dvec2 along = glm::normalize(dvec2(end - begin));
-  const double length = glm::length(dvec2(end - begin));
-  const double margin = std::sqrt(2.0) / (1 << std::min(8, test_context().info().subpixel_bits));
-  int judged = 0;
-  for (int y = 0; y < 24; ++y)
-    for (int x = 0; x < 48; ++x) {
-      const dvec2 p = dvec2(x + 0.5, y + 0.5) - dvec2(begin);
-      const double s = glm::dot(p, along), t = p.x * along.y - p.y * along.x;
-      const double inside = std::min({s, length - s, 0.5 - std::abs(t)});
-      if (std::abs(inside) < margin) continue;
-      ++judged;
-      EXPECT_EQ(int(hardware(x, y)), inside > 0 ? 1 : 0) << x << ", " << y;
-      EXPECT_EQ(int(compute(x, y)), inside > 0 ? 1 : 0) << x << ", " << y;
-    }
-  EXPECT_GT(judged, 1000);
 }
 
 TEST(GpuPolygon, FillsByEitherRule) {

@@ -74,6 +74,11 @@ std::vector<std::string> extensions_of(VkPhysicalDevice device) {
   return names;
 }
 
+bool has_extension(VkPhysicalDevice device, const char* name) {
+  const std::vector<std::string> names = extensions_of(device);
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 const char* type_name(VkPhysicalDeviceType type) {
   switch (type) {
     case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
@@ -262,11 +267,8 @@ DeviceInfo describe(VkPhysicalDevice device, int index) {
   for (int count = 1; count <= 64; count *= 2)
     if ((counts & static_cast<VkSampleCountFlags>(count)) != 0) info.sample_counts.push_back(count);
   info.timestamps = limits.timestampComputeAndGraphics == VK_TRUE;
-  const std::vector<std::string> extensions = extensions_of(device);
-  info.host_memory_import =
-      std::find(extensions.begin(), extensions.end(), VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME) !=
-          extensions.end() &&
-      properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+  info.host_memory_import = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU &&
+                            has_extension(device, VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME);
   if (properties.apiVersion >= api_version) describe_versioned(device, info);
   return info;
 }
@@ -299,7 +301,16 @@ std::vector<DeviceInfo> list_devices() {
 Device::Device(VkPhysicalDevice physical, const DeviceInfo& info) {
   // Everything the device has, less what costs speed or memory by being on.
   Features features;
+  VkPhysicalDeviceLineRasterizationFeaturesEXT lines{};
+  lines.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_LINE_RASTERIZATION_FEATURES_EXT;
+  std::vector<const char*> extensions;
+  if (info.host_memory_import) extensions.push_back(VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME);
+  if (has_extension(physical, VK_EXT_LINE_RASTERIZATION_EXTENSION_NAME)) {
+    extensions.push_back(VK_EXT_LINE_RASTERIZATION_EXTENSION_NAME);
+    features.v13.pNext = &lines;
+  }
   query(physical, features);
+  bresenham_lines = lines.bresenhamLines == VK_TRUE;
   features.core.features.robustBufferAccess = VK_FALSE;
   features.v13.robustImageAccess = VK_FALSE;
   features.v12.bufferDeviceAddressCaptureReplay = VK_FALSE;
@@ -312,14 +323,13 @@ Device::Device(VkPhysicalDevice physical, const DeviceInfo& info) {
   queue.queueFamilyIndex = find_queue_family(physical).value();
   queue.queueCount = 1;
   queue.pQueuePriorities = &priority;
-  const char* import = VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME;
   VkDeviceCreateInfo create_info{};
   create_info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
   create_info.pNext = &features.core;
   create_info.queueCreateInfoCount = 1;
   create_info.pQueueCreateInfos = &queue;
-  create_info.enabledExtensionCount = info.host_memory_import ? 1 : 0;
-  create_info.ppEnabledExtensionNames = &import;
+  create_info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+  create_info.ppEnabledExtensionNames = extensions.data();
   check(vkCreateDevice(physical, &create_info, nullptr, &link.device), "vkCreateDevice");
 }
 

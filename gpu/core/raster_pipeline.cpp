@@ -85,6 +85,9 @@ void check_options(const ContextState& context, const RasterOptions& options) {
   vkGetPhysicalDeviceFeatures(context.physical, &features);
   if (options.depth_clamp && features.depthClamp == VK_FALSE)
     throw Error(ErrorKind::missing_feature, "device " + context.info.name + " lacks depthClamp");
+  if (options.line_rule == LineRule::bresenham && !context.device->bresenham_lines)
+    throw Error(ErrorKind::missing_feature,
+                "device " + context.info.name + " lacks bresenhamLines");
 }
 
 OwnedPipelineLayout make_layout(const ContextState& context, std::uint32_t args_bytes) {
@@ -113,6 +116,7 @@ struct FixedState {
   VkPipelineVertexInputStateCreateInfo vertex_input{};
   VkPipelineInputAssemblyStateCreateInfo assembly{};
   VkPipelineViewportStateCreateInfo viewport{};
+  VkPipelineRasterizationLineStateCreateInfoEXT lines{};
   VkPipelineRasterizationStateCreateInfo rasterization{};
   VkPipelineMultisampleStateCreateInfo multisample{};
   VkPipelineDepthStencilStateCreateInfo depth{};
@@ -139,6 +143,9 @@ FixedState::FixedState(const RasterOptions& options) {
   rasterization.depthClampEnable = options.depth_clamp ? VK_TRUE : VK_FALSE;
   rasterization.polygonMode = VK_POLYGON_MODE_FILL;
   rasterization.lineWidth = 1;
+  lines.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_LINE_STATE_CREATE_INFO_EXT;
+  lines.lineRasterizationMode = VK_LINE_RASTERIZATION_MODE_BRESENHAM_EXT;
+  if (options.line_rule == LineRule::bresenham) rasterization.pNext = &lines;
   multisample.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
   multisample.rasterizationSamples = static_cast<VkSampleCountFlagBits>(options.samples);
   depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;

@@ -23,6 +23,8 @@ enum class Compare {
 enum class Blend { replace, source_over, premultiplied_over, add };
 enum class Culling { none, back, front };  ///< counter-clockwise seen with y up is front
 enum class Primitive { points, lines, triangles };
+/// Which pixels a line covers: as the device likes, or those of Bresenham, where it can.
+enum class LineRule { any, bresenham };
 
 struct RasterOptions {
   std::vector<Format> colors;
@@ -33,13 +35,15 @@ struct RasterOptions {
   bool depth_clamp = false;
   Culling culling = Culling::none;
   Primitive primitive = Primitive::triangles;
+  LineRule line_rule = LineRule::any;
   int samples = 1;
   std::vector<Specialization> specializations;  ///< for both stages
   bool operator==(const RasterOptions&) const = default;
 };
 
 /// A vertex + fragment pipeline. Use RasterPipeline<Args>. Built once in a context: a second one of
-/// the same shaders and options shares it.
+/// the same shaders and options shares it. Throws Error{missing_feature} for samples, depth_clamp
+/// or a line_rule that the device lacks.
 class RawRasterPipeline {
  public:
   RawRasterPipeline(Context& context, const ShaderCode& vertex, const ShaderCode& fragment,

@@ -74,6 +74,7 @@ class Device {
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
   DeviceLink link;
+  bool bresenham_lines = false;  ///< VK_EXT_line_rasterization
 };
 
 // ---- submission.cpp ----

@@ -7,26 +7,14 @@
 namespace parity {
 namespace {
 
-using Lines = std::vector<std::vector<ivec2>>;
+using raster_test::Lines;
 
 const Registration registration = register_stage<std::vector<Segment>, Lines>({
     .name = "raster/bresenham",
     .title = "The pixels of a segment, in integers",
     .source = "notes 1.9; Bresenham 1965",
     .rows = {22},
-    .axes = {{.name = "count",
-              .low = 1,
-              .high = 1031,
-              .standard = 131,
-              .logarithmic = true,
-              .whole = true},
-             {.name = "reach",
-              .unit = "px",
-              .low = 1,
-              .high = 500,
-              .standard = 50,
-              .logarithmic = true,
-              .whole = true}},
+    .axes = raster_test::line_axes(),
     .problem = raster_test::random_segments,
     .cpu = {{.solve = [](const std::vector<Segment>& s) { return cpu::bresenham(s); }}},
     .gpu = {{.solve = [](gpu::Context& context,

@@ -9,26 +9,14 @@
 namespace parity {
 namespace {
 
-using Lines = std::vector<std::vector<ivec2>>;
+using raster_test::Lines;
 
 const Registration registration = register_stage<std::vector<Segment>, Lines>({
     .name = "raster/dda_line",
     .title = "The pixels of a segment, by adding floats and rounding",
     .source = "notes 1.9",
     .rows = {24},
-    .axes = {{.name = "count",
-              .low = 1,
-              .high = 1031,
-              .standard = 131,
-              .logarithmic = true,
-              .whole = true},
-             {.name = "reach",
-              .unit = "px",
-              .low = 1,
-              .high = 500,
-              .standard = 50,
-              .logarithmic = true,
-              .whole = true}},
+    .axes = raster_test::line_axes(),
     .problem = raster_test::random_segments,
     .cpu = {{.solve = [](const std::vector<Segment>& s) { return cpu::dda_line(s); }}},
     .gpu = {{.solve = [](gpu::Context& context,

@@ -9,6 +9,25 @@
 /// Segments in all octants, for the records of line stages.
 namespace parity::raster_test {
 
+using Lines = std::vector<std::vector<ivec2>>;
+
+/// How many segments, and how far they reach.
+inline std::vector<Axis> line_axes() {
+  return {{.name = "count",
+           .low = 1,
+           .high = 1031,
+           .standard = 131,
+           .logarithmic = true,
+           .whole = true},
+          {.name = "reach",
+           .unit = "px",
+           .low = 1,
+           .high = 500,
+           .standard = 50,
+           .logarithmic = true,
+           .whole = true}};
+}
+
 /// Random segments up to `reach` px from the origin; every fifth is axis-aligned, diagonal or a
 /// point.
 inline std::vector<Segment> random_segments(const Setting& setting) {

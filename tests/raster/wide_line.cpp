@@ -1,7 +1,7 @@
 #include "cpu_reference/raster/wide_line.h"
 
 #include "geometry/random.h"
-#include "gpu/raster/dda_line.h"
+#include "gpu/raster/wide_line.h"
 #include "tests/stage.h"
 
 namespace parity {
@@ -68,15 +68,16 @@ const Registration
                 .gpu = {{.name = "compute",
                          .solve =
                              [](gpu::Context& context, const WideLine& l) {
-                               return gpu::wide_line(context, l.begin, l.end, l.line_width, l.side,
-                                                     l.side);
+                               return gpu::wide_line(context, l.begin, l.end, l.line_width,
+                                                     ivec2(l.side));
                              }},
                         {.name = "hardware",
                          .solve = [](gpu::Context& context,
                                      const WideLine& l) -> Measured<Grid<std::uint8_t>> {
                            if (l.line_width != 1)
                              throw Unsupported("hardware lines are drawn 1 px wide");
-                           return gpu::hardware_line(context, l.begin, l.end, l.side, l.side);
+                           return gpu::hardware_line(context, l.begin, l.end, gpu::LineRule::any,
+                                                     ivec2(l.side));
                          }}},
                 .distance = distance,
                 .tolerance =
