@@ -84,7 +84,7 @@ TEST_P(CoverageOf, TrianglesAcrossTheBorderIsExactInOurRasterisers) {
 }
 
 TEST_P(CoverageOf, ClippedTrianglesDiffersOnlyWhereTheirBordersAreInDoubt) {
-  for (const Kind kind : {Kind::crossing, Kind::through}) {
+  for (const Kind kind : {Kind::crossing, Kind::through, Kind::huge}) {
     const RasterProblem problem = clipped_problem(kind, GetParam());
     const Coverage want = cpu::span_coverage(problem.list, problem.snapping);
     const Coverage compute = gpu::edge_coverage(test_context(), problem.list, problem.snapping);

@@ -8,8 +8,8 @@
 layout(local_size_x = 64) in;
 layout(scalar, push_constant) uniform Push { ScanlineArgs args; };
 
-/// Where row y crosses the edge: the least column whose sample is not left of it. The estimate is
-/// within 2^-7 pixel, so the exact edge function moves it by one at most.
+/// Where row y crosses an edge that reaches it: the least column whose sample is not left of it. The
+/// estimate is within 2^-6 pixel, so the exact edge function moves it by one at most.
 int crossing(ivec2 a, ivec2 b, int y, int sample_x) {
   const ivec2 d = b - a;
   const float x = float(a.x) + float(y - a.y) * float(d.x) / float(d.y);
@@ -30,7 +30,7 @@ ivec2 span(TrianglePiece t, int y, int sample_x) {
   ivec2 columns = ivec2(0, int(args.target.width));
   for (int i = 0; i < 3; ++i) {
     const ivec2 a = t.corner[i], b = t.corner[i < 2 ? i + 1 : 0];
-    if (a.y == b.y) continue;
+    if (y < min(a.y, b.y) || y >= max(a.y, b.y)) continue;  // one edge goes up here, one down
     const int column = crossing(a, b, y, sample_x);
     if (b.y < a.y)
       columns.x = max(columns.x, column);

@@ -64,12 +64,13 @@ void CoverageRule::add(const RasterProblem& problem, std::uint32_t triangle) {
   const dvec2 half = 0.5 * dvec2(list.width, list.height);
   dmat3 corners;
   dvec3 z;
-  double extent = std::max(list.width, list.height);  // of the corners that stay
+  double extent = std::max(list.width, list.height);  // of the corners that may stay
   for (int i = 0; i < 3; ++i) {
     const dvec4& c = clip[std::size_t(i)];
     corners[i] = dvec3((dvec2(c) + c.w) * half, c.w);
     z[i] = c.z;
-    if (is_inside(c)) extent = std::max({extent, corners[i].x / c.w, corners[i].y / c.w});
+    const dvec2 window = glm::abs(dvec2(corners[i])) / c.w;
+    if (c.z >= 0 && c.z <= c.w) extent = std::max({extent, window.x, window.y});
   }
   const double size = largest_coordinate(clip) / least_w(clip);
   if (glm::determinant(corners) == 0 || !std::isfinite(size)) return;  // nothing of it is seen
@@ -77,7 +78,8 @@ void CoverageRule::add(const RasterProblem& problem, std::uint32_t triangle) {
   // Where the direction of rounding is not known it may be a whole step.
   const double step = std::exp2(-problem.subpixel_bits) * (problem.snapping_is_known ? 0.5 : 1.0);
   const double side = std::max(list.width, list.height);
-  const double reach = std::sqrt(2.0) * (step + u * (3 * extent + 9 * side * size));
+  const double reach =
+      std::sqrt(2.0) * (step + u * (3 * std::min(extent, 0x1p15) + 9 * side * size));
   Doubt doubt{.triangle = triangle, .sides = {}};
   const auto add_side = [&](dvec3 plane, double slack) {
     const double gradient = glm::length(dvec2(plane));

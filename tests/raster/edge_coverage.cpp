@@ -22,7 +22,7 @@ const Registration registration = register_stage<RasterProblem, Coverage>({
     .title = "Which samples a triangle covers, by integer edge functions with the top-left rule",
     .source = "notes 1.2, 1.4, 1.5; Pineda 1988; Vulkan 1.3, Basic Polygon Rasterization",
     .rows = {2, 6, 7, 8, 9, 10, 19},
-    .axes = {raster_test::kind_axis(raster_test::Kind::through), raster_test::samples_axis(),
+    .axes = {raster_test::kind_axis(raster_test::Kind::huge), raster_test::samples_axis(),
              raster_test::side_axis()},
     .problem = raster_test::make_raster_problem,
     .cpu =

@@ -15,7 +15,7 @@ const Registration registration = register_stage<RasterProblem, Coverage>({
     .title = "Which samples a triangle covers, row by row between two edges",
     .source = "notes 1.5",
     .rows = {11},
-    .axes = {raster_test::kind_axis(raster_test::Kind::through), raster_test::samples_axis(),
+    .axes = {raster_test::kind_axis(raster_test::Kind::huge), raster_test::samples_axis(),
              raster_test::side_axis()},
     .problem = raster_test::make_raster_problem,
     .cpu = {{.solve =

@@ -71,9 +71,11 @@ class Maker {
       list_.clip_positions[i] = -list_.clip_positions[i];
   }
 
-  void crossing() {
+  /// Corners up to `out` px out of the viewport.
+  void crossing(float out) {
     const auto corner = [&] {
-      return vec2(random_.uniform(-40, float(side_) + 40), random_.uniform(-40, float(side_) + 40));
+      const float high = float(side_) + out;
+      return vec2(random_.uniform(-out, high), random_.uniform(-out, high));
     };
     add({corner(), corner(), corner()}, 2);
   }
@@ -131,10 +133,13 @@ class Maker {
           behind();
           break;
         case Kind::crossing:
-          crossing();
+          crossing(40);
           break;
         case Kind::through:
           through();
+          break;
+        case Kind::huge:
+          crossing(65536);
           break;
         default:
           random_triangle();

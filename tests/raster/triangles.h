@@ -34,6 +34,7 @@ enum class Kind {
   behind,      ///< behind the eye
   crossing,    ///< up to 40 px out of the viewport: a device may cut them at its border
   through,     ///< through the near plane: everybody must cut them
+  huge,        ///< up to 2^16 px out: beyond what fixed point holds
 };
 
 /// Axes of most stages here: kind up to a last one, samples, side of the picture.
