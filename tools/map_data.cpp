@@ -25,16 +25,35 @@ class Nodes {
   dvec2 border_between(ivec2 a, ivec2 b) const {
     const bool a_fails = fails_at(a);
     dvec2 from = place_of(a), to = place_of(b);
+    if (are_consecutive(a, b)) return value_at(glm::mix(from, to, interpolated(a, b)));
     for (int i = 0; i < bisections; ++i) {
       const dvec2 middle = (from + to) / 2.0;
       const double value = value_(x_.value_at(middle.x), y_.value_at(middle.y));
       (fails(map_, value) == a_fails ? from : to) = middle;
     }
-    const dvec2 place = (from + to) / 2.0;
-    return {x_.value_at(place.x), y_.value_at(place.y)};
+    return value_at((from + to) / 2.0);
   }
 
  private:
+  dvec2 value_at(dvec2 place) const { return {x_.value_at(place.x), y_.value_at(place.y)}; }
+
+  /// Whether nothing lies between two neighbours: whole numbers, one apart.
+  bool are_consecutive(ivec2 a, ivec2 b) const {
+    const bool along_x = a.x != b.x;
+    if (!(along_x ? map_.x : map_.y).whole) return false;
+    const std::vector<double>& values = along_x ? data_.xs : data_.ys;
+    return std::abs(values[static_cast<std::size_t>(along_x ? b.x : b.y)] -
+                    values[static_cast<std::size_t>(along_x ? a.x : a.y)]) == 1;
+  }
+
+  /// Where the border is from a to b, by their values; in the middle if those say nothing.
+  double interpolated(ivec2 a, ivec2 b) const {
+    const auto height = [&](double value) { return map_.logarithmic ? std::log(value) : value; };
+    const double from = height(data_.values(a.x, a.y)), to = height(data_.values(b.x, b.y));
+    const double place = (height(map_.border) - from) / (to - from);
+    return place >= 0 && place <= 1 ? place : 0.5;
+  }
+
   dvec2 place_of(ivec2 node) const {
     return {x_.place(data_.xs[static_cast<std::size_t>(node.x)]),
             y_.place(data_.ys[static_cast<std::size_t>(node.y)])};

@@ -21,7 +21,8 @@ struct MapData {
 };
 
 /// Measures a map at the nodes of a grid, and finds the border on every side of a grid square that
-/// it crosses by bisection, to 1/64 of the side.
+/// it crosses by bisection, to 1/64 of the side; between consecutive whole numbers by
+/// interpolation.
 ///
 /// @param value     Map::value on a device
 /// @param progress  called after each evaluation of the grid.

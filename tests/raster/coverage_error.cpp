@@ -154,7 +154,9 @@ double changed_samples(gpu::Context& context, double bits, double size) {
   const double steps = std::exp2(std::round(bits));
   Random random{11};
   TriangleList fine{.width = side, .height = side, .samples = 1};
-  for (int i = 0; i < 300; ++i) {
+  // Enough that one in a hundred of the covered samples is dozens.
+  const int count = int(std::clamp(8000 / (size * size), 300.0, 40000.0));
+  for (int i = 0; i < count; ++i) {
     const dvec2 middle{random.uniform(40, side - 40), random.uniform(40, side - 40)};
     const double turn = random.uniform(0, 6.28f);
     for (int k = 0; k < 3; ++k) {
