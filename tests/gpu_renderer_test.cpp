@@ -118,7 +118,21 @@ double head_on(double base, double roughness) {
   return 0.96 * base / std::numbers::pi + 0.04 * 0.25 / (std::numbers::pi * alpha * alpha);
 }
 
-TEST(GpuRenderer, AnEmptySceneShowsTheBackgroundPremultiplied) {
+class GpuRenderer : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!gpu::can_render(test_context().info()))
+      GTEST_SKIP() << "skipped: the device cannot render";
+  }
+};
+
+TEST(Renderer, RefusesADeviceThatCannotCompileIt) {
+  EXPECT_FALSE(gpu::can_render({.is_swiftshader = true}));
+  if (gpu::can_render(test_context().info())) return;
+  EXPECT_THROW(gpu::Renderer(test_context(), Stage().scene), gpu::Error);
+}
+
+TEST_F(GpuRenderer, AnEmptySceneShowsTheBackgroundPremultiplied) {
   Stage stage;
   stage.options.background = vec4(0.5f, 0.25f, 1.0f, 0.5f);
   const Picture picture = stage.render({.elements = true, .full_float = true});
@@ -128,7 +142,7 @@ TEST(GpuRenderer, AnEmptySceneShowsTheBackgroundPremultiplied) {
   EXPECT_EQ(picture.triangle_count, 0u);
 }
 
-TEST(GpuRenderer, ASquareLitHeadOnHasTheAnalyticRadiance) {
+TEST_F(GpuRenderer, ASquareLitHeadOnHasTheAnalyticRadiance) {
   Stage stage;
   Material& material = stage.add_material();
   material.base_color = vec4(0.8f, 0.5f, 0.2f, 1.0f);
@@ -145,7 +159,7 @@ TEST(GpuRenderer, ASquareLitHeadOnHasTheAnalyticRadiance) {
       shading_tolerance);
 }
 
-TEST(GpuRenderer, APointLightFallsOffWithTheSquareAndEndsAtItsRange) {
+TEST_F(GpuRenderer, APointLightFallsOffWithTheSquareAndEndsAtItsRange) {
   Stage stage;
   Material& material = stage.add_material();
   material.metallic = 0;
@@ -161,7 +175,7 @@ TEST(GpuRenderer, APointLightFallsOffWithTheSquareAndEndsAtItsRange) {
   expect_near(middle(stage.render()), vec4(0, 0, 0, 1), 0);
 }
 
-TEST(GpuRenderer, ASpotLightIsDarkOutsideItsConeAndFullInside) {
+TEST_F(GpuRenderer, ASpotLightIsDarkOutsideItsConeAndFullInside) {
   Stage stage;
   Material& material = stage.add_material();
   material.metallic = 0;
@@ -177,7 +191,7 @@ TEST(GpuRenderer, ASpotLightIsDarkOutsideItsConeAndFullInside) {
   expect_near(picture.color(0, 16), vec4(0, 0, 0, 1), 0);
 }
 
-TEST(GpuRenderer, AWhiteDielectricVanishesInAUniformEnvironment) {
+TEST_F(GpuRenderer, AWhiteDielectricVanishesInAUniformEnvironment) {
   Stage stage;
   Material& material = stage.add_material();
   material.metallic = 0;
@@ -192,7 +206,7 @@ TEST(GpuRenderer, AWhiteDielectricVanishesInAUniformEnvironment) {
     expect_near(pixel, vec4(0.25f, 0.5f, 2.0f, 1.0f), 2 * shading_tolerance);
 }
 
-TEST(GpuRenderer, AMaskKeepsWhatReachesTheCutoff) {
+TEST_F(GpuRenderer, AMaskKeepsWhatReachesTheCutoff) {
   Stage stage;
   Grid<u8vec4> image(3, 1, u8vec4(255));
   image(0, 0).w = 127;
@@ -212,7 +226,7 @@ TEST(GpuRenderer, AMaskKeepsWhatReachesTheCutoff) {
   EXPECT_GT(picture.depth(27, 16), 0.0f);
 }
 
-TEST(GpuRenderer, BlendedLayersAreSortedAndDrawnOver) {
+TEST_F(GpuRenderer, BlendedLayersAreSortedAndDrawnOver) {
   Stage stage;
   stage.add_unlit(vec4(1, 0, 0, 0.5f)).alpha_mode = AlphaMode::blend;
   stage.add_unlit(vec4(0, 1, 0, 0.25f)).alpha_mode = AlphaMode::blend;
@@ -232,7 +246,7 @@ TEST(GpuRenderer, BlendedLayersAreSortedAndDrawnOver) {
   EXPECT_NEAR(picture.depth(16, 16), near * (far - 6) / (6 * (far - near)), 4 * 0x1p-24);
 }
 
-TEST(GpuRenderer, AMirroredSquareStillFacesTheViewerAndATurnedOneDoesNot) {
+TEST_F(GpuRenderer, AMirroredSquareStillFacesTheViewerAndATurnedOneDoesNot) {
   Stage stage;
   stage.add_unlit(vec4(1));
   dmat4 mirror(1.0);
@@ -247,7 +261,7 @@ TEST(GpuRenderer, AMirroredSquareStillFacesTheViewerAndATurnedOneDoesNot) {
   expect_near(middle(stage.render()), vec4(1), 0);
 }
 
-TEST(GpuRenderer, BlendedBackFacesAreCulledUnlessDoubleSided) {
+TEST_F(GpuRenderer, BlendedBackFacesAreCulledUnlessDoubleSided) {
   Stage stage;
   stage.add_unlit(vec4(1, 1, 1, 0.5f)).alpha_mode = AlphaMode::blend;
   dmat4 turn(1.0);
@@ -263,7 +277,7 @@ TEST(GpuRenderer, BlendedBackFacesAreCulledUnlessDoubleSided) {
   expect_near(middle(stage.render()), vec4(0.5f), 0);
 }
 
-TEST(GpuRenderer, TheBackOfADoubleSidedSquareIsLitLikeTheFront) {
+TEST_F(GpuRenderer, TheBackOfADoubleSidedSquareIsLitLikeTheFront) {
   Stage stage;
   Material& material = stage.add_material();
   material.metallic = 0;
@@ -275,7 +289,7 @@ TEST(GpuRenderer, TheBackOfADoubleSidedSquareIsLitLikeTheFront) {
   expect_near(middle(stage.render()), vec4(vec3(head_on(1, 1)), 1), shading_tolerance);
 }
 
-TEST(GpuRenderer, NearestTexelsAreDecodedFromSrgbExactly) {
+TEST_F(GpuRenderer, NearestTexelsAreDecodedFromSrgbExactly) {
   Stage stage;
   Grid<u8vec4> image(3, 3, u8vec4(0, 0, 0, 255));
   image(0, 0) = u8vec4(255, 10, 188, 255);  // top left
@@ -309,7 +323,7 @@ Stage ramp(Wrap wrap) {
   return stage;
 }
 
-TEST(GpuRenderer, LinearFilteringIsARampBetweenTexelCentres) {
+TEST_F(GpuRenderer, LinearFilteringIsARampBetweenTexelCentres) {
   const std::array<Wrap, 3> wraps{Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge};
   for (const Wrap wrap : wraps) {
     const Picture picture = ramp(wrap).render();
@@ -323,7 +337,7 @@ TEST(GpuRenderer, LinearFilteringIsARampBetweenTexelCentres) {
   }
 }
 
-TEST(GpuRenderer, TextureCoordinatesBelowZeroAndAboveOneWrap) {
+TEST_F(GpuRenderer, TextureCoordinatesBelowZeroAndAboveOneWrap) {
   for (const Wrap wrap : {Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge}) {
     Stage stage;
     Grid<u8vec4> image(2, 1, u8vec4(0, 0, 0, 255));
@@ -344,7 +358,7 @@ TEST(GpuRenderer, TextureCoordinatesBelowZeroAndAboveOneWrap) {
   }
 }
 
-TEST(GpuRenderer, MipLevelsFollowTheFootprint) {
+TEST_F(GpuRenderer, MipLevelsFollowTheFootprint) {
   // 64 texels over 16 pixels are two levels up exactly. There checks of 4 texels are checks of one
   // pixel, seen at their centres; one level further up all is grey.
   Stage stage;
@@ -373,7 +387,7 @@ TEST(GpuRenderer, MipLevelsFollowTheFootprint) {
   for (const vec4& pixel : picture.color) EXPECT_TRUE(pixel.w == 0 || pixel.w == 1);
 }
 
-TEST(GpuRenderer, ATextureTransformMovesTheTexture) {
+TEST_F(GpuRenderer, ATextureTransformMovesTheTexture) {
   Stage stage;
   Grid<u8vec4> image(2, 2, u8vec4(0, 0, 0, 255));
   image(1, 0) = u8vec4(255);
@@ -390,7 +404,7 @@ TEST(GpuRenderer, ATextureTransformMovesTheTexture) {
   EXPECT_EQ(picture.color(8, 24).x, 0.0f);
 }
 
-TEST(GpuRenderer, ANormalMapActsAsTiltedNormals) {
+TEST_F(GpuRenderer, ANormalMapActsAsTiltedNormals) {
   // The map's normal, all directions different, against vertices with that normal.
   const u8vec4 texel(190, 180, 220, 255);
   const vec3 n = 2.0f * vec3(texel) / 255.0f - 1.0f;
@@ -420,7 +434,7 @@ TEST(GpuRenderer, ANormalMapActsAsTiltedNormals) {
   }
 }
 
-TEST(GpuRenderer, EverySampleCountShowsAFullSquareAlike) {
+TEST_F(GpuRenderer, EverySampleCountShowsAFullSquareAlike) {
   Stage stage;
   Material& material = stage.add_material();
   material.base_color = vec4(0.2f, 0.5f, 0.9f, 1);
@@ -438,7 +452,7 @@ TEST(GpuRenderer, EverySampleCountShowsAFullSquareAlike) {
   }
 }
 
-TEST(GpuRenderer, AnEdgeIsCoveredByTheShareOfItsSamples) {
+TEST_F(GpuRenderer, AnEdgeIsCoveredByTheShareOfItsSamples) {
   // The right half of a pixel column: x > 0 covers the sample places with x > 1/2 of pixel 16.
   const std::array<std::pair<int, double>, 4> shares{{{1, 1.0}, {2, 0.5}, {4, 0.5}, {8, 0.5}}};
   for (const auto& [samples, share] : shares) {
@@ -455,7 +469,7 @@ TEST(GpuRenderer, AnEdgeIsCoveredByTheShareOfItsSamples) {
   }
 }
 
-TEST(GpuRenderer, DepthFollowsItsConvention) {
+TEST_F(GpuRenderer, DepthFollowsItsConvention) {
   Stage stage;
   stage.add_unlit(vec4(1));
   stage.add(square(2, 0));
@@ -473,7 +487,7 @@ TEST(GpuRenderer, DepthFollowsItsConvention) {
   }
 }
 
-TEST(GpuRenderer, TheNearerSquareIsSeenInEveryDepthMode) {
+TEST_F(GpuRenderer, TheNearerSquareIsSeenInEveryDepthMode) {
   for (const DepthMode mode : {DepthMode::standard, DepthMode::reverse_z, DepthMode::logarithmic}) {
     Stage stage;
     stage.add_unlit(vec4(1, 0, 0, 1));
@@ -488,7 +502,7 @@ TEST(GpuRenderer, TheNearerSquareIsSeenInEveryDepthMode) {
   }
 }
 
-TEST(GpuRenderer, OfEqualDepthsTheFirstIsKept) {
+TEST_F(GpuRenderer, OfEqualDepthsTheFirstIsKept) {
   Stage stage;
   stage.add_unlit(vec4(1, 0, 0, 1)).alpha_mode = AlphaMode::mask;
   stage.add_unlit(vec4(0, 1, 0, 1)).double_sided = true;
@@ -497,7 +511,7 @@ TEST(GpuRenderer, OfEqualDepthsTheFirstIsKept) {
   expect_near(middle(stage.render()), vec4(0, 1, 0, 1), 0);
 }
 
-TEST(GpuRenderer, PointsAndLinesShowTheirBaseColour) {
+TEST_F(GpuRenderer, PointsAndLinesShowTheirBaseColour) {
   for (const int samples : {1, 2, 4}) {
     Stage stage;
     stage.add_material().base_color = vec4(1, 0.5f, 0.25f, 1);
@@ -528,7 +542,7 @@ TEST(GpuRenderer, PointsAndLinesShowTheirBaseColour) {
   }
 }
 
-TEST(GpuRenderer, SingularAndOutOfViewPlacesDrawNothingAndHarmNothing) {
+TEST_F(GpuRenderer, SingularAndOutOfViewPlacesDrawNothingAndHarmNothing) {
   Stage stage;
   Material& material = stage.add_material();
   material.double_sided = true;
@@ -547,7 +561,7 @@ TEST(GpuRenderer, SingularAndOutOfViewPlacesDrawNothingAndHarmNothing) {
   }
 }
 
-TEST(GpuRenderer, FramesOfOneRendererAreEqualBitByBit) {
+TEST_F(GpuRenderer, FramesOfOneRendererAreEqualBitByBit) {
   Stage stage;
   stage.add_material();
   stage.add(square(0.7f, 0));
@@ -563,7 +577,7 @@ TEST(GpuRenderer, FramesOfOneRendererAreEqualBitByBit) {
   EXPECT_GT(first.memory_bytes, 0u);
 }
 
-TEST(GpuRenderer, HalfPrecisionEndsAtItsLargestNumber) {
+TEST_F(GpuRenderer, HalfPrecisionEndsAtItsLargestNumber) {
   Stage stage;
   stage.add_unlit(vec4(1e9f, 1, 0.333333343f, 1));
   stage.add(square(2, 0));
@@ -607,7 +621,7 @@ Stage everything() {
   return stage;
 }
 
-TEST(GpuRenderer, ComputeKernelsAndPipelineAgreeInTheMiddleOfTriangles) {
+TEST_F(GpuRenderer, ComputeKernelsAndPipelineAgreeInTheMiddleOfTriangles) {
   for (const DepthMode mode : {DepthMode::standard, DepthMode::reverse_z, DepthMode::logarithmic}) {
     Stage stage = everything();
     stage.options.depth = mode;
@@ -632,7 +646,7 @@ TEST(GpuRenderer, ComputeKernelsAndPipelineAgreeInTheMiddleOfTriangles) {
   }
 }
 
-TEST(GpuRenderer, EverythingAtOnceIsFinite) {
+TEST_F(GpuRenderer, EverythingAtOnceIsFinite) {
   Stage stage = everything();
   for (const int samples : {1, 4, 8}) {
     stage.options.samples = samples;
@@ -643,7 +657,7 @@ TEST(GpuRenderer, EverythingAtOnceIsFinite) {
   }
 }
 
-TEST(GpuRenderer, LogarithmicDepthNeedsAFarPlane) {
+TEST_F(GpuRenderer, LogarithmicDepthNeedsAFarPlane) {
   Stage stage;
   stage.scene.cameras[0].far.reset();
   Frame frame = stage.frame();

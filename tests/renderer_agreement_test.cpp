@@ -4,6 +4,7 @@
 
 #include "geometry/input_error.h"
 #include "geometry/scene_io.h"
+#include "gpu/raster/renderer.h"
 #include "tests/gpu_context.h"
 #include "tests/raster/agreement.h"
 #include "tests/shared_data.h"
@@ -33,7 +34,13 @@ std::string test_name(const testing::TestParamInfo<std::string>& info) {
   return name;
 }
 
-class RenderersAgree : public testing::TestWithParam<std::string> {};
+class RenderersAgree : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    if (!gpu::can_render(test_context().info()))
+      GTEST_SKIP() << "skipped: the device cannot render";
+  }
+};
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(RenderersAgree);
 
 TEST_P(RenderersAgree, OnEveryJudgedPixel) {

@@ -8,6 +8,18 @@
 #include "gpu/raster/scene_frame.h"
 
 namespace parity::gpu {
+namespace {
+
+Context& checked(Context& context) {
+  if (can_render(context.info())) return context;
+  throw Error(ErrorKind::missing_feature,
+              "device " + context.info().name +
+                  " cannot compile the renderer's shaders (structures that hold addresses)");
+}
+
+}  // namespace
+
+bool can_render(const DeviceInfo& device) { return !device.is_swiftshader; }
 
 struct Renderer::State {
   State(Context& device, const Scene& scene, RenderOptions render_options)
@@ -27,7 +39,7 @@ struct Renderer::State {
 };
 
 Renderer::Renderer(Context& context, const Scene& scene, RenderOptions options)
-    : state_(std::make_unique<State>(context, scene, options)) {}
+    : state_(std::make_unique<State>(checked(context), scene, options)) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;

@@ -13,6 +13,10 @@ struct RenderOptions {
   bool full_float = false;  ///< RGBA32F instead of RGBA16F; RGBA16F ends at 65504
 };
 
+/// Whether the renderer's shaders compile on a device: SwiftShader's compiler crashes on structures
+/// that hold addresses and are read as a whole.
+bool can_render(const DeviceInfo& device);
+
 /// Draws a scene: uploaded once, then frame after frame. Sample counts that the device has are
 /// drawn by its fixed-function pipeline, the others by compute kernels.
 ///
@@ -22,7 +26,7 @@ struct RenderOptions {
 /// Source: notes 1, 2, 6.2, 6.3; glTF 2.0, section 3.9 and appendix B.
 class Renderer {
  public:
-  /// @throws Error  the scene does not fit the device.
+  /// @throws Error  the scene does not fit the device, or it cannot render.
   Renderer(Context& context, const Scene& scene, RenderOptions options = {});
   ~Renderer();
   Renderer(Renderer&&) noexcept;

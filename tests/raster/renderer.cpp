@@ -3,6 +3,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "geometry/random.h"
+#include "gpu/raster/renderer.h"
 #include "tests/raster/agreement.h"
 #include "tests/stage.h"
 
@@ -151,13 +152,13 @@ const Registration registration = register_stage<RenderProblem, Verdict>({
                    return Verdict{0, 0, 0};
                  }}},
     .gpu = {{.name = "reference",
-             .solve =
-                 [](gpu::Context& context, const RenderProblem& p) {
-                   const Scene scene = random_scene(p);
-                   const raster_test::Agreement a =
-                       raster_test::draw_and_compare(context, scene, frame_of(scene, p));
-                   return Verdict{double(a.coverage), double(a.depth), double(a.color)};
-                 }}},
+             .solve = [](gpu::Context& context, const RenderProblem& p) -> Measured<Verdict> {
+               if (!gpu::can_render(context.info())) throw Unsupported("the device cannot render");
+               const Scene scene = random_scene(p);
+               const raster_test::Agreement a =
+                   raster_test::draw_and_compare(context, scene, frame_of(scene, p));
+               return Verdict{double(a.coverage), double(a.depth), double(a.color)};
+             }}},
     .distance = [](const Verdict& got, const Verdict&) { return got[0] + got[1] + got[2]; },
     .tolerance = 0.0,
     .why = "pixels whose coverage, depth or colour is outside of what the reference derives for "
