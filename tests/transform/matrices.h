@@ -7,11 +7,18 @@
 #include <vector>
 
 #include "geometry/math.h"
+#include "tests/setting.h"
 
 /// What the records of the transform chapter share.
 namespace parity::transform_test {
 
 constexpr double u = 0x1p-24;  ///< relative rounding error of one float operation
+
+/// How many matrices or quaternions; 131 and 4099 divide by nothing.
+inline Axis count_axis() {
+  return {
+      .name = "count", .low = 1, .high = 4099, .standard = 131, .logarithmic = true, .whole = true};
+}
 
 /// Largest |got - want| over all elements of all matrices, each matrix divided by its own largest
 /// element, but at least 1: errors of a matrix grow with what its elements are sums of.

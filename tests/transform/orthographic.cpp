@@ -4,32 +4,22 @@
 
 #include <limits>
 
-#include "geometry/camera.h"
 #include "geometry/random.h"
-#include "geometry/transform.h"
 #include "gpu/transform/orthographic.h"
 #include "tests/stage.h"
 #include "tests/transform/matrices.h"
+#include "tests/transform/projections.h"
 
 namespace parity {
 namespace {
 
+using transform_test::Projections;
 using transform_test::u;
-
-struct Projections {
-  std::vector<ViewVolume> volumes;
-  DepthMode depth = DepthMode::standard;
-};
-
-auto fields_of(const Projections*) {
-  return std::tuple{&Projections::volumes, &Projections::depth};
-}
 
 /// Boxes whose middle is `offset` half sizes away from the axis.
 Projections boxes(const Setting& setting) {
   Random random{setting.seed};
-  Projections problem;
-  problem.depth = setting.count("reverse") ? DepthMode::reverse_z : DepthMode::standard;
+  Projections problem = transform_test::no_projections(setting);
   const float offset = float(setting.at("offset"));
   for (int i = 0; i < setting.count("count"); ++i) {
     const vec3 half = vec3(1.5f) + random.in_box(1.0f);
@@ -46,14 +36,9 @@ const Registration registration = register_stage<Projections, std::vector<dmat4>
     .title = "Clip from view for a box, Vulkan's depth 0 to 1, y down",
     .source = "notes 2.6; Vulkan 1.3, Coordinate Transformations",
     .rows = {34},
-    .axes = {{.name = "count",
-              .low = 1,
-              .high = 4099,
-              .standard = 131,
-              .logarithmic = true,
-              .whole = true},
+    .axes = {transform_test::count_axis(),
              {.name = "offset", .low = 0, .high = 10, .standard = 1},
-             {.name = "reverse", .low = 0, .high = 1, .standard = 0, .whole = true}},
+             transform_test::reverse_axis()},
     .problem = boxes,
     .cpu = {{.solve = [](const Projections& p) { return cpu::orthographic(p.volumes, p.depth); }}},
     .gpu = {{.solve =

@@ -4,32 +4,22 @@
 
 #include <limits>
 
-#include "geometry/camera.h"
 #include "geometry/random.h"
-#include "geometry/transform.h"
 #include "gpu/transform/perspective.h"
 #include "tests/stage.h"
 #include "tests/transform/matrices.h"
+#include "tests/transform/projections.h"
 
 namespace parity {
 namespace {
 
+using transform_test::Projections;
 using transform_test::u;
-
-struct Projections {
-  std::vector<ViewVolume> volumes;
-  DepthMode depth = DepthMode::standard;
-};
-
-auto fields_of(const Projections*) {
-  return std::tuple{&Projections::volumes, &Projections::depth};
-}
 
 /// Off-centre frusta with far / near = ratio.
 Projections frusta(const Setting& setting) {
   Random random{setting.seed};
-  Projections problem;
-  problem.depth = setting.count("reverse") ? DepthMode::reverse_z : DepthMode::standard;
+  Projections problem = transform_test::no_projections(setting);
   for (int i = 0; i < setting.count("count"); ++i) {
     ViewVolume v;
     v.near = random.uniform(0.01f, 2.0f);
@@ -49,14 +39,9 @@ const Registration registration = register_stage<Projections, std::vector<dmat4>
     .title = "Clip from view for a frustum, Vulkan's depth 0 to 1, y down",
     .source = "notes 2.6; Vulkan 1.3, Coordinate Transformations",
     .rows = {32, 33, 35, 36, 37},
-    .axes = {{.name = "count",
-              .low = 1,
-              .high = 4099,
-              .standard = 131,
-              .logarithmic = true,
-              .whole = true},
+    .axes = {transform_test::count_axis(),
              {.name = "ratio", .low = 1.5, .high = 1e6, .standard = 100, .logarithmic = true},
-             {.name = "reverse", .low = 0, .high = 1, .standard = 0, .whole = true}},
+             transform_test::reverse_axis()},
     .problem = frusta,
     .cpu = {{.solve = [](const Projections& p) { return cpu::perspective(p.volumes, p.depth); }}},
     .gpu = {{.solve =
@@ -102,23 +87,6 @@ TEST(Perspective, OpenGlHasDepthFromMinusOne) {
 
 TEST(Perspective, FocalLengthFitsTheFieldOfView) {
   EXPECT_NEAR(cpu::focal_length(2.0, std::acos(0.0)), 1.0, 1e-15);  // 90 degrees: half the height
-}
-
-/// Squeezing a frustum into its box keeps the near and the far plane where they are.
-bool keeps_both_planes(const dmat4& squeeze, double n, double f) {
-  return std::abs(project(squeeze, {0, 0, -n}).z + n) < 1e-12 * f &&
-         std::abs(project(squeeze, {0, 0, -f}).z + f) < 1e-12 * f;
-}
-
-// The matrix as the notes print it: last row (0, 0, 1, 0), third row (0, 0, n + f, -f n).
-dmat4 squeeze_of_the_notes(double n, double f) {
-  return dmat4(dvec4(n, 0, 0, 0), dvec4(0, n, 0, 0), dvec4(0, 0, n + f, 1), dvec4(0, 0, -f * n, 0));
-}
-
-TEST(PerspectiveErratum, TheSqueezeOfTheNotesMovesTheNearPlane) {
-  EXPECT_TRUE(keeps_both_planes(cpu::squeeze(1, 10), 1, 10));
-  EXPECT_FALSE(keeps_both_planes(squeeze_of_the_notes(1, 10), 1, 10));
-  EXPECT_NEAR(project(squeeze_of_the_notes(1, 10), {0, 0, -1}).z, 21, 1e-12);
 }
 
 }  // namespace

@@ -1,9 +1,5 @@
 #include "cpu_reference/transform/slerp.h"
 
-#include <gtest/gtest.h>
-
-#include <numbers>
-
 #include "cpu_reference/transform/quaternion.h"
 #include "geometry/random.h"
 #include "geometry/transform.h"
@@ -57,94 +53,39 @@ double error(const std::vector<SlerpProblem>& problems, const std::vector<dquat>
   return worst;
 }
 
-const Registration registration =
-    register_stage<std::vector<SlerpProblem>, std::vector<dquat>>(
-        {
-            .name = "transform/slerp",
-            .title = "Shortest-arc interpolation of rotations at constant speed",
-            .source = "notes 2.7; Shoemake 1985",
-            .rows = {39},
-            .axes = {{.name = "count",
-                      .low = 1,
-                      .high = 4099,
-                      .standard = 131,
-                      .logarithmic = true,
-                      .whole = true},
-                     {.name = "angle",
-                      .unit = "rad",
-                      .low = 1e-6,
-                      .high = 1.5,
-                      .standard = 0.7,
-                      .logarithmic = true}},
-            .problem = pairs_apart,
-            .cpu = {{.solve = [](const std::vector<SlerpProblem>& p) { return cpu::slerp(p); }},
-                    {.name = "nlerp",
-                     .solve = [](const std::vector<SlerpProblem>& p) { return cpu::nlerp(p); }}},
-            .gpu = {{.name = "reference",
-                     .solve =
-                         [](gpu::Context& context, const std::vector<SlerpProblem>& p) {
-                           const std::vector<quat> answer = gpu::slerp(context, p);
-                           return std::vector<dquat>(answer.begin(), answer.end());
-                         }}},
-            .distance = distance,
-            .tolerance = 32 * u,
-            .why = "weights sin((1-t)W)/sin W, up to 1 each for W <= pi/2, from an angle that is "
-                   "found without acos: its "
-                   "error of 4 u passes into a weight by at most a factor 2, sines by own "
-                   "polynomials 2 u, the division "
-                   "2.5 ULP, two products and a sum; input quaternions are unit to 2 u, twice",
-            .error = error,
-            .error_unit = "rad",
-            .chart_axes = {"angle"},
-        });
-
-using Slerp = std::function<dquat(const SlerpProblem&)>;
-
-dquat ours(const SlerpProblem& p) { return cpu::slerp(std::vector<SlerpProblem>{p})[0]; }
-
-/// The formula of the notes, literally.
-dquat slerp_of_the_notes(const SlerpProblem& p) {
-  const dquat a{p.from};
-  const dquat b{p.to};
-  const double omega = std::acos(glm::dot(a, b));
-  return (a * std::sin((1 - p.t) * omega) + b * std::sin(p.t * omega)) / std::sin(omega);
-}
-
-/// Halfway between a rotation by 0 and one by 60 degrees, given as the quaternion that stands for
-/// 60 - 360: a rotation by 30 degrees.
-bool takes_the_shortest_arc(const Slerp& slerp) {
-  const double angle = std::numbers::pi / 3;
-  const SlerpProblem p{quat(1, 0, 0, 0),
-                       -quat(float(std::cos(angle / 2)), 0, 0, float(std::sin(angle / 2))), 0.5f};
-  const dquat half = slerp(p);
-  return std::abs(std::abs(half.w) - std::cos(angle / 4)) < 1e-6;
-}
-
-bool survives_equal_ends(const Slerp& slerp) {
-  const quat q(1, 0, 0, 0);
-  const dquat answer = slerp({q, q, 0.3f});
-  return std::abs(answer.w - 1) < 1e-12;
-}
-
-TEST(SlerpErratum, TheFormulaOfTheNotesTakesTheLongWay) {
-  EXPECT_TRUE(takes_the_shortest_arc(ours));
-  EXPECT_FALSE(takes_the_shortest_arc(slerp_of_the_notes));
-  EXPECT_TRUE(survives_equal_ends(ours));
-  EXPECT_FALSE(survives_equal_ends(slerp_of_the_notes));
-}
-
-TEST(Slerp, HasConstantSpeed) {
-  const SlerpProblem ends{quat(1, 0, 0, 0), quat(0.5f, 0, std::sqrt(0.75f), 0), 0};
-  double last = 0;
-  for (int k = 1; k <= 10; ++k) {
-    SlerpProblem p = ends;
-    p.t = 0.1f * float(k);
-    const dquat q = ours(p);
-    const double angle = std::atan2(std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z), q.w);
-    EXPECT_NEAR(angle - last, std::numbers::pi / 30, 1e-7);
-    last = angle;
-  }
-}
+const Registration registration = register_stage<std::vector<SlerpProblem>, std::vector<dquat>>({
+    .name = "transform/slerp",
+    .title = "Shortest-arc interpolation of rotations at constant speed",
+    .source = "notes 2.7; Shoemake 1985",
+    .rows = {39},
+    .axes = {transform_test::count_axis(),
+             {.name = "angle",
+              .unit = "rad",
+              .low = 1e-6,
+              .high = 1.5,
+              .standard = 0.7,
+              .logarithmic = true}},
+    .problem = pairs_apart,
+    .cpu = {{.solve = [](const std::vector<SlerpProblem>& p) { return cpu::slerp(p); }},
+            {.name = "nlerp",
+             .solve = [](const std::vector<SlerpProblem>& p) { return cpu::nlerp(p); }}},
+    .gpu = {{.name = "reference",
+             .solve =
+                 [](gpu::Context& context, const std::vector<SlerpProblem>& p) {
+                   const std::vector<quat> answer = gpu::slerp(context, p);
+                   return std::vector<dquat>(answer.begin(), answer.end());
+                 }}},
+    .distance = distance,
+    .tolerance = 32 * u,
+    .why = "weights sin((1-t)W)/sin W, up to 1 each for W <= pi/2, from an angle that is "
+           "found without acos: its "
+           "error of 4 u passes into a weight by at most a factor 2, sines by own "
+           "polynomials 2 u, the division "
+           "2.5 ULP, two products and a sum; input quaternions are unit to 2 u, twice",
+    .error = error,
+    .error_unit = "rad",
+    .chart_axes = {"angle"},
+});
 
 }  // namespace
 }  // namespace parity
