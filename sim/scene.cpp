@@ -73,10 +73,10 @@ std::string shape_fault(const SimScene& scene) {
     if (!touches(scene, scene.solids[i].shape))
       return place("solids", i) + ": lies outside the domain";
   for (std::size_t i = 0; i < scene.sources.size(); ++i) {
-    if (!is_inside(scene, scene.sources[i].shape))
-      return place("sources", i) + ": sticks out of the domain";
-    if (!(scene.sources[i].stop > scene.sources[i].start))
-      return place("sources", i) + ".stop: must be later than its start";
+    const SimSource& source = scene.sources[i];
+    const SimShape ball{
+        .kind = SimShape::Kind::sphere, .center = source.center, .radius = source.radius};
+    if (!is_inside(scene, ball)) return place("sources", i) + ": sticks out of the domain";
   }
   if (is_solid_everywhere(scene)) return "solids: leave no room for the fluid";
   return {};

@@ -48,14 +48,13 @@ struct SimBody {
   bool operator==(const SimBody&) const = default;
 };
 
-/// Where smoke, heat and motion come from while start <= time < stop.
+/// A ball in which smoke, temperature and velocity are held.
 struct SimSource {
-  SimShape shape;
-  std::optional<dvec3> velocity;  ///< m/s; none: leaves the fluid's
-  double smoke = 1;               ///< concentration inside, 0 to 1
-  double temperature = 0;         ///< K above the surroundings inside
-  double start = 0;               ///< s
-  double stop = 1e9;              ///< s
+  dvec3 center{0};         ///< m
+  double radius = 0;       ///< m
+  dvec3 velocity{0};       ///< m/s
+  double smoke = 1;        ///< concentration, 0 to 1
+  double temperature = 0;  ///< K above the surroundings
 
   bool operator==(const SimSource&) const = default;
 };
@@ -70,15 +69,16 @@ struct SimSide {
   bool operator==(const SimSide&) const = default;
 };
 
-enum class SimAdvection { semi_lagrangian, maccormack };
+enum class SimAdvection { upwind, central, semi_lagrangian, maccormack };
 enum class SimStart { rest, taylor_green };
 
 struct SimFluid {
-  double density = 1000;           ///< kg/m^3 (kg/m^2 in 2 dimensions)
-  double viscosity = 0;            ///< m^2/s, kinematic
-  double surface_tension = 0;      ///< m^2/(kg s^2) for the particle methods
-  double expansion = 1.0 / 293.0;  ///< 1/K: buoyancy is -expansion x temperature x gravity
-  double smoke_weight = 0;         ///< downward acceleration of smoke in units of gravity
+  double density = 1000;         ///< kg/m^3 (kg/m^2 in 2 dimensions)
+  double viscosity = 0;          ///< m^2/s, kinematic
+  double surface_tension = 0;    ///< m^2/(kg s^2), particle methods
+  double expansion = 1.0 / 293;  ///< 1/K: hot fluid rises with expansion x temperature x gravity
+  double smoke_weight = 0;       ///< m/s^2 downwards for smoke of concentration 1
+  double cooling = 0;            ///< 1/s
   double vorticity_confinement = 0;
 
   bool operator==(const SimFluid&) const = default;
@@ -86,13 +86,14 @@ struct SimFluid {
 
 struct SimSolver {
   SimAdvection advection = SimAdvection::maccormack;
-  double tolerance = 1e-4;            ///< grids: divergence left, relative
+  double divergence = 1e-3;           ///< grids: 1/s, largest that the projection may leave
   double density_error = 1e-3;        ///< dfsph: average compression left
   std::optional<double> courant;      ///< none: the method's own
   std::optional<double> max_step;     ///< s
-  std::optional<double> sound_speed;  ///< m/s, wcsph; none: ten times that of free fall
+  std::optional<double> sound_speed;  ///< m/s, wcsph; none: ten times that of the fall
+  double step_error = 0;              ///< grids: m/s, local error that a step may make; 0: any
   double artificial_viscosity = 0.1;  ///< wcsph, dfsph
-  double flip_blend = 0.98;           ///< flip: 0 is PIC, 1 is FLIP
+  double flip_ratio = 0.97;           ///< flip: 0 is PIC, 1 is FLIP
 
   bool operator==(const SimSolver&) const = default;
 };

@@ -136,26 +136,28 @@ constexpr std::initializer_list<const char*> method_names{"grid", "flip", "apic"
 constexpr std::initializer_list<const char*> side_kinds{"slip", "no_slip", "open", "periodic"};
 constexpr std::size_t max_bodies = 64;
 
+SimShape read_sphere(const Node& node, int dimensions) {
+  node.expect_keys({"center", "radius"});
+  return {.kind = SimShape::Kind::sphere,
+          .center = node.at("center").vector(dimensions, any_number),
+          .radius = node.at("radius").number(positive)};
+}
+
+SimShape read_box(const Node& node, int dimensions) {
+  node.expect_keys({"min", "max"});
+  const SimShape box{.low = node.at("min").vector(dimensions, any_number),
+                     .high = node.at("max").vector(dimensions, any_number)};
+  for (int a = 0; a < dimensions; ++a)
+    if (!(box.high[a] > box.low[a]))
+      node.at("max").fail(" must be larger than min along every axis");
+  return box;
+}
+
 /// Exactly one of "box" and "sphere".
 SimShape read_shape(const Node& node, int dimensions) {
   if (node.has("box") == node.has("sphere")) node.fail(" must have either a box or a sphere");
-  SimShape shape;
-  if (node.has("box")) {
-    const Node box = node.at("box");
-    box.expect_keys({"min", "max"});
-    shape.low = box.at("min").vector(dimensions, any_number);
-    shape.high = box.at("max").vector(dimensions, any_number);
-    for (int a = 0; a < dimensions; ++a)
-      if (!(shape.high[a] > shape.low[a]))
-        box.at("max").fail(" must be larger than min along every axis");
-  } else {
-    const Node sphere = node.at("sphere");
-    sphere.expect_keys({"center", "radius"});
-    shape.kind = SimShape::Kind::sphere;
-    shape.center = sphere.at("center").vector(dimensions, any_number);
-    shape.radius = sphere.at("radius").number(positive);
-  }
-  return shape;
+  return node.has("box") ? read_box(node.at("box"), dimensions)
+                         : read_sphere(node.at("sphere"), dimensions);
 }
 
 std::vector<SimBody> read_bodies(const Node& root, const char* key, int dimensions) {
@@ -175,13 +177,12 @@ std::vector<SimSource> read_sources(const Node& root, int dimensions) {
   std::vector<SimSource> sources;
   if (!root.has("sources")) return sources;
   for (const Node& node : root.at("sources").items()) {
-    node.expect_keys({"box", "sphere", "velocity", "smoke", "temperature", "start", "stop"});
-    SimSource source{.shape = read_shape(node, dimensions)};
+    node.expect_keys({"sphere", "velocity", "smoke", "temperature"});
+    const SimShape ball = read_sphere(node.at("sphere"), dimensions);
+    SimSource source{.center = ball.center, .radius = ball.radius};
     node.read("velocity", source.velocity, dimensions);
     node.read("smoke", source.smoke, {0, 1});
     node.read("temperature", source.temperature, {-1e4, 1e4});
-    node.read("start", source.start, not_negative);
-    node.read("stop", source.stop, not_negative);
     if (sources.size() == max_bodies) node.fail(": there may be at most 64");
     sources.push_back(source);
   }
@@ -229,29 +230,33 @@ void read_fluid(const Node& root, SimFluid& fluid) {
   if (!root.has("fluid")) return;
   const Node node = root.at("fluid");
   node.expect_keys({"density", "viscosity", "surface_tension", "expansion", "smoke_weight",
-                    "vorticity_confinement"});
+                    "cooling", "vorticity_confinement"});
   node.read("density", fluid.density, {1e-3, 1e6});
   node.read("viscosity", fluid.viscosity, {0, 1e4});
   node.read("surface_tension", fluid.surface_tension, {0, 1e4});
   node.read("expansion", fluid.expansion, {0, 1});
-  node.read("smoke_weight", fluid.smoke_weight, {0, 100});
+  node.read("smoke_weight", fluid.smoke_weight, {0, 1000});
+  node.read("cooling", fluid.cooling, {0, 1000});
   node.read("vorticity_confinement", fluid.vorticity_confinement, {0, 100});
 }
 
 void read_solver(const Node& root, SimSolver& solver) {
   if (!root.has("solver")) return;
   const Node node = root.at("solver");
-  node.expect_keys({"advection", "tolerance", "density_error", "courant", "max_step", "sound_speed",
-                    "artificial_viscosity", "flip_blend"});
+  node.expect_keys({"advection", "divergence", "density_error", "courant", "max_step",
+                    "sound_speed", "step_error", "artificial_viscosity", "flip_ratio"});
   if (node.has("advection"))
-    solver.advection = node.at("advection").choice<SimAdvection>({"semi_lagrangian", "maccormack"});
-  node.read("tolerance", solver.tolerance, {1e-12, 1});
+    solver.advection =
+        node.at("advection")
+            .choice<SimAdvection>({"upwind", "central", "semi_lagrangian", "maccormack"});
+  node.read("divergence", solver.divergence, {1e-9, 1e3});
   node.read("density_error", solver.density_error, {1e-6, 0.1});
   node.read("courant", solver.courant, {1e-3, 20});
   node.read("max_step", solver.max_step, {1e-7, 10});
   node.read("sound_speed", solver.sound_speed, {1e-3, 1e5});
+  node.read("step_error", solver.step_error, {0, 1e3});
   node.read("artificial_viscosity", solver.artificial_viscosity, {0, 10});
-  node.read("flip_blend", solver.flip_blend, {0, 1});
+  node.read("flip_ratio", solver.flip_ratio, {0, 1});
 }
 
 void read_picture(const Node& root, int dimensions, SimPicture& picture) {
@@ -339,20 +344,14 @@ Json bodies_json(const std::vector<SimBody>& bodies) {
   return list;
 }
 
-template <typename T>
-Json optional_json(const std::optional<T>& value) {
-  if (!value) return nullptr;
-  if constexpr (std::is_same_v<T, dvec3>)
-    return numbers(*value);
-  else
-    return *value;
+Json optional_json(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
 }
 
 Json sources_json(const std::vector<SimSource>& sources) {
   Json list = Json::array();
   for (const SimSource& s : sources)
-    list.push_back(
-        {shape_json(s.shape), optional_json(s.velocity), s.smoke, s.temperature, s.start, s.stop});
+    list.push_back({numbers(s.center), s.radius, numbers(s.velocity), s.smoke, s.temperature});
   return list;
 }
 
@@ -386,12 +385,12 @@ std::string physics_text(const SimScene& scene) {
               {"sides", sides},
               {"gravity", numbers(scene.gravity)},
               {"fluid",
-               {f.density, f.viscosity, f.surface_tension, f.expansion, f.smoke_weight,
+               {f.density, f.viscosity, f.surface_tension, f.expansion, f.smoke_weight, f.cooling,
                 f.vorticity_confinement}},
               {"solver",
-               {int(s.advection), s.tolerance, s.density_error, optional_json(s.courant),
-                optional_json(s.max_step), optional_json(s.sound_speed), s.artificial_viscosity,
-                s.flip_blend}},
+               {int(s.advection), s.divergence, s.density_error, optional_json(s.courant),
+                optional_json(s.max_step), optional_json(s.sound_speed), s.step_error,
+                s.artificial_viscosity, s.flip_ratio}},
               {"start", int(scene.start)},
               {"liquid", bodies_json(scene.liquid)},
               {"solids", bodies_json(scene.solids)},
