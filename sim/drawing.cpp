@@ -94,7 +94,9 @@ void check_drawn_scene(const DrawnScene& scene) {
   check(std::ranges::all_of(scene.positions, is_finite),
         "check_drawn_scene: a position is not finite");
   check(scene.solids.size() <= 64, "check_drawn_scene: there are more than 64 solids");
-  if (scene.volume.mode != VolumeMode::none) check_volume(scene.volume);
+  if (scene.volume.mode == VolumeMode::none) return;
+  check_volume(scene.volume);
+  check(scene.light.sun.y > 0.1f, "check_drawn_scene: the sun stands too low for a volume");
 }
 
 void check_drawn_field(const DrawnField& field) {

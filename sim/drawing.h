@@ -45,19 +45,17 @@ struct DrawnSolid {
 /// How the volume is shown.
 enum class VolumeMode : std::uint32_t {
   none,
-  shadow,   ///< unseen: darkens what lies behind it from the sun and the sky
-  smoke,    ///< light scatters in it once
-  surface,  ///< water where it is at least 1/2
+  shadow,  ///< unseen: darkens what lies behind it from the sun and the sky
+  smoke,   ///< light scatters in it once
 };
 
 /// Cubic cells, x fastest, then y; values at their centres, linear between them.
 struct DrawnVolume {
   VolumeMode mode = VolumeMode::none;
   ivec3 size{0};
-  vec3 origin{0};               ///< m, lower corner
-  float cell = 1;               ///< m
-  std::vector<float> values;    ///< extinction in 1/m; of a surface: 1 inside, 0 outside
-  float shadow_extinction = 0;  ///< 1/m for a value of 1; surface only
+  vec3 origin{0};             ///< m, lower corner
+  float cell = 1;             ///< m
+  std::vector<float> values;  ///< extinction, 1/m
 };
 
 struct DrawnLight {
@@ -71,7 +69,7 @@ struct DrawnLight {
   float floor_y = 0;            ///< m
   float fade = 10;              ///< m: beyond, the floor is lost in the horizon
   std::uint32_t has_floor = 1;  ///< 0: the horizon's colour everywhere
-  vec3 medium{0.9f};            ///< albedo of smoke; of a surface: what 1 m of water lets through
+  vec3 medium{0.9f};            ///< albedo of smoke
   float forward_scatter = 0;    ///< g of Henyey & Greenstein
 };
 

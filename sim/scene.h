@@ -99,7 +99,7 @@ struct SimSolver {
 };
 
 /// What a frame shows.
-enum class SimView { automatic, spheres, smoke, field, surface };
+enum class SimView { automatic, spheres, smoke, field };
 enum class SimColor { automatic, speed, vorticity, pressure, smoke, height };
 
 struct SimPicture {

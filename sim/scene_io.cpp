@@ -266,8 +266,7 @@ void read_picture(const Node& root, int dimensions, SimPicture& picture) {
       {"size", "view", "color", "range", "eye", "target", "fov_degrees", "sun", "samples"});
   if (node.has("size")) picture.size = ivec2(node.at("size").vector(2, {16, 8192}));
   if (node.has("view"))
-    picture.view =
-        node.at("view").choice<SimView>({"automatic", "spheres", "smoke", "field", "surface"});
+    picture.view = node.at("view").choice<SimView>({"automatic", "spheres", "smoke", "field"});
   if (node.has("color"))
     picture.color = node.at("color").choice<SimColor>(
         {"automatic", "speed", "vorticity", "pressure", "smoke", "height"});
@@ -285,7 +284,8 @@ void read_picture(const Node& root, int dimensions, SimPicture& picture) {
     node.at("eye").fail(" is its target");
   node.read("fov_degrees", picture.fov_degrees, {1, 120});
   node.read("sun", picture.sun, 3);
-  if (!(picture.sun.y > 0)) node.at("sun").fail(" must point up: its y must be above 0");
+  if (!(picture.sun.y > 0.2 * glm::length(picture.sun)))
+    node.at("sun").fail(" must stand higher: its y must be above a fifth of its length");
   if (node.has("samples")) picture.samples = node.at("samples").whole(1, 4);
 }
 

@@ -108,7 +108,7 @@ TEST(SimScene, RefusesEachFaultInOneLineWithItsPlace) {
       {"/start", "taylor_green", "start: method wcsph begins at rest"},
       {"/picture/size", json{0, 100}, "picture.size[0] is 0, must be from 16.0"},
       {"/picture/eye", json{1, 1, 1}, "picture must have both an eye and a target"},
-      {"/picture/sun", json{1, -1, 0}, "picture.sun must point up"},
+      {"/picture/sun", json{1, -1, 0}, "picture.sun must stand higher"},
       {"/output", "png", "output is \"png\", must be an array"},
       {"/output", json{"gif"}, "output[0] is \"gif\", must be one of png, ply, vtk"},
   };

@@ -10,7 +10,7 @@
 
 namespace parity::tools {
 
-/// What a frame of particles, smoke or a surface shows.
+/// What a frame of particles or smoke shows.
 DrawnScene drawn_scene(const SimScene& scene, const SimContent& content);
 
 /// What a frame of a flow in 2 dimensions shows.

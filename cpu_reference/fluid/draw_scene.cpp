@@ -161,10 +161,6 @@ class Painter {
                std::size_t(volume_.size.x) +
            std::size_t(x);
   }
-  double extinction() const {
-    return volume_.mode == VolumeMode::surface ? double(volume_.shadow_extinction) : 1.0;
-  }
-
   bool is_before_sun(const dvec3& point) const {
     return std::ranges::any_of(scene_.solids, [&](const DrawnSolid& solid) {
       return solid.casts_shadow != 0 && meet_solid({point, sun_}, solid) < infinity;
@@ -175,7 +171,7 @@ class Painter {
   std::vector<double> sweep(const dvec3& direction) const {
     const ivec3 n = volume_.size;
     const dvec3 step = direction / direction.y;
-    const double way = glm::length(step) * double(volume_.cell) * extinction();
+    const double way = glm::length(step) * double(volume_.cell);
     std::vector<double> light(volume_.values.size());
     for (int y = n.y - 1; y >= 0; --y)
       for (int z = 0; z < n.z; ++z)

@@ -23,7 +23,7 @@ namespace parity::cpu {
 /// way up crosses the next layer, linear between its cells, times exp(-w (v + v') / 2).
 ///
 /// @return  linear RGB, alpha 1.
-/// @throws std::invalid_argument  as check_drawn_scene; no light from above.
+/// @throws std::invalid_argument  as check_drawn_scene.
 ///
 /// Source: notes 6.1, 7.2; Max 1995, "Optical models for direct volume rendering"; Kunasz & Auer
 /// 1988, "Short characteristic integration of radiative transfer problems".

@@ -19,7 +19,6 @@ DrawScene constants_of(const DrawnScene& scene) {
   const DrawnView& view = scene.view;
   const DrawnLight& light = scene.light;
   const DrawnVolume& volume = scene.volume;
-  const bool is_surface = volume.mode == VolumeMode::surface;
   DrawScene s{};
   s.width = uint(view.width * view.samples);
   s.height = uint(view.height * view.samples);
@@ -35,7 +34,6 @@ DrawScene constants_of(const DrawnScene& scene) {
   s.volume_size = volume.size;
   s.volume_origin = volume.origin;
   s.cell = volume.cell;
-  s.shadow_extinction = is_surface ? volume.shadow_extinction : 1.0f;
   s.sun = light.sun;
   s.sun_color = light.sun_color;
   s.sky_color = light.sky_color;

@@ -50,7 +50,6 @@ struct DrawScene {
   ivec3 volume_size;
   vec3 volume_origin;
   float cell;
-  float shadow_extinction;  ///< for a value of 1
   vec3 sun;
   vec3 sun_color;
   vec3 sky_color;

@@ -30,7 +30,7 @@ float light_from(uint direction, vec3 along, ivec2 cell, float value) {
   const vec2 upper = mix(mix(above(direction, c), above(direction, c + ivec2(1, 0)), part.x),
                          mix(above(direction, c + ivec2(0, 1)), above(direction, c + 1), part.x),
                          part.y);
-  const float way = args.scene.at[0].cell * length(along) * args.scene.at[0].shadow_extinction;
+  const float way = args.scene.at[0].cell * length(along);
   return upper.x * exp(-0.5 * way * (value + upper.y));
 }
 

@@ -6,7 +6,6 @@
 
 const uint volume_none = 0u;
 const uint volume_smoke = 2u;
-const uint volume_surface = 3u;
 
 vec3 draw_volume_high(REF(DrawScene) s) {
   return s.at[0].volume_origin + s.at[0].cell * vec3(s.at[0].volume_size);
