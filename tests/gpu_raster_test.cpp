@@ -12,7 +12,6 @@
 #include "gpu/raster/edge_coverage.h"
 #include "gpu/raster/encode_srgb.h"
 #include "gpu/raster/interpolate.h"
-#include "gpu/raster/painter.h"
 #include "gpu/raster/polygon_fill.h"
 #include "gpu/raster/scanline_fill.h"
 #include "gpu/raster/viewport.h"
@@ -120,6 +119,30 @@ TEST(GpuCoverage, OfAWatertightMeshIsOnceEverywhere) {
     }
 }
 
+// Cut by the guard band, the near and the far plane, a triangle leaves up to seven pieces;
+// somewhere among them is the view.
+TEST(GpuCoverage, OfATriangleAroundTheViewIsOnceHoweverItIsCut) {
+  TriangleList list{.width = 16, .height = 16, .samples = 1};
+  std::mt19937 random(13);
+  const auto any = [&] { return 2 * double(random() >> 8) / double(1 << 24) - 1; };
+  constexpr std::uint32_t count = 500;
+  for (std::uint32_t t = 0; t < count; ++t) {
+    // The inner circle of the triangle, 15000 px wide, holds the view; depth is 0.5 there or near
+    // it.
+    const dvec2 middle{10000 * any(), 10000 * any()};
+    const double turn = 3.2 * any(), tilt = 1 / 20000.0;
+    const dvec2 slope = tilt * glm::normalize(dvec2(any(), any()));
+    for (int corner = 0; corner < 3; ++corner) {
+      const double angle = turn + corner * 2.0943951;
+      const dvec2 p = middle + 30000.0 * dvec2(std::cos(angle), std::sin(angle));
+      list.clip_positions.push_back(vec4(dvec4(p / 8.0, 0.5 + glm::dot(slope, p), 1)));
+    }
+    list.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+  }
+  const Coverage coverage = gpu::edge_coverage(test_context(), list, Snapping::mesa);
+  for (const std::uint32_t covered : coverage.count) ASSERT_EQ(covered, count);
+}
+
 TEST(GpuCoverage, RefusesWhatItCannotDraw) {
   TriangleList list = random_triangles(16, 16, 1, 1, 1);
   list.triangles[0].z = 99;
@@ -181,6 +204,19 @@ TEST(GpuDepth, OfComputeAgreesWithTheFixedFunction) {
   }
 }
 
+TEST(GpuDepth, OfEqualDepthsTheFirstDrawnStays) {
+  TriangleList list = random_triangles(40, 40, 1, 20, 12);
+  const auto single = std::uint32_t(list.triangles.size());
+  for (std::uint32_t t = 0; t < single; ++t) list.triangles.push_back(list.triangles[t]);
+  for (const DepthMode mode : {DepthMode::standard, DepthMode::reverse_z}) {
+    const DepthImage compute =
+        gpu::depth_test(test_context(), list, mode, 0, 0, device_snapping(test_context()));
+    const DepthImage hardware = gpu::hardware_depth_test(test_context(), list, mode, 0, 0);
+    for (const DepthImage* image : {&compute, &hardware})
+      EXPECT_LE(*std::max_element(image->front.begin(), image->front.end()), single);
+  }
+}
+
 // Depth is affine in the window whatever the perspective (erratum of notes 1.3). Corners on pixel
 // corners: nothing is lost by snapping.
 TEST(GpuDepth, IsAffineInTheWindow) {
@@ -232,32 +268,6 @@ TEST(GpuDepth, IsLogarithmicInW) {
   }
 }
 
-TEST(GpuPainter, SortsLikeAStableSort) {
-  std::mt19937 random(9);
-  std::vector<float> keys{0.0f, -0.0f, 1.0f, -1.0f, std::numeric_limits<float>::infinity()};
-  for (int i = 0; i < 20000; ++i) keys.push_back(float(int(random() % 2001) - 1000) / 7);
-  std::vector<std::uint32_t> want(keys.size());
-  std::iota(want.begin(), want.end(), 0u);
-  std::stable_sort(want.begin(), want.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return keys[a] > keys[b]; });
-  EXPECT_EQ(gpu::painter_order(test_context(), keys), want);
-  EXPECT_TRUE(gpu::painter_order(test_context(), {}).empty());
-  keys[3] = std::nanf("");
-  EXPECT_THROW(gpu::painter_order(test_context(), keys), std::invalid_argument);
-}
-
-TEST(GpuPainter, SeesWhatADepthTestSeesOfStackedTriangles) {
-  TriangleList list = random_triangles(64, 64, 1, 40, 6);
-  for (std::size_t i = 0; i < list.clip_positions.size(); ++i) {
-    vec4& p = list.clip_positions[i];
-    p = p * ((1 + float((i / 3) * 7 % 40)) / p.w);  // 40 different distances
-    p.z = p.w - 0.5f;                               // nearer is less
-  }
-  const DepthImage painted = gpu::painter(test_context(), list);
-  EXPECT_EQ(painted.front,
-            gpu::depth_test(test_context(), list, DepthMode::standard, 0, 0, Snapping::mesa).front);
-}
-
 TEST(GpuClip, LeavesWhatIsInsideAndCutsTheRest) {
   TriangleList list{.width = 8, .height = 8, .samples = 1};
   list.clip_positions = {
@@ -281,6 +291,24 @@ TEST(GpuViewport, TakesCornersOfTheViewToThoseOfTheWindow) {
   EXPECT_EQ(window[0], vec4(0, 0, 0, 0.5f));
   EXPECT_EQ(window[1], vec4(131, 77, 1, 1));
   EXPECT_EQ(window[2], vec4(65.5f, 38.5f, 0.5f, 0.25f));
+}
+
+// What snapping decides by: one rounding more or less moves one corner in a thousand.
+TEST(GpuViewport, RoundsTheProductAndTheSumOnce) {
+  std::mt19937 random(8);
+  std::vector<vec4> clip;
+  for (int i = 0; i < 20000; ++i) {
+    const auto any = [&] { return float(random() >> 8) / float(1 << 23) - 1; };
+    clip.emplace_back(any(), any(), 0.5f, 0.5f + std::abs(any()));
+  }
+  const std::vector<vec4> window = gpu::to_window(test_context(), clip, 1449, 877);
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < clip.size(); ++i) {
+    const float r = 1 / clip[i].w;
+    wrong += window[i].x != std::fma(clip[i].x * r, 724.5f, 724.5f) ||
+             window[i].y != std::fma(clip[i].y * r, 438.5f, 438.5f);
+  }
+  EXPECT_EQ(wrong, 0u);
 }
 
 TEST(GpuPolygon, FillsByEitherRule) {
@@ -325,9 +353,13 @@ TEST(GpuSrgb, FindsEachCodeFromBothOfItsBorders) {
     return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
   };
   for (int code = 0; code < 256; ++code) {
-    const double low = decoded(std::max(0.0, (code - 0.4999) / 255));
-    const double high = decoded(std::min(1.0, (code + 0.4999) / 255));
-    colors(code, 0) = vec4(float(low), float(decoded(code / 255.0)), float(high), code / 255.0f);
+    // The first float of the code and the last.
+    const double low = decoded(std::max(0.0, (code - 0.5) / 255));
+    const double high = decoded(std::min(1.0, (code + 0.5) / 255));
+    float first = float(low), last = float(high);
+    if (first < low) first = std::nextafter(first, 2.0f);
+    if (last >= high && code < 255) last = std::nextafter(last, 0.0f);
+    colors(code, 0) = vec4(first, float(decoded(code / 255.0)), last, code / 255.0f);
     colors(code, 1) = colors(code, 0) * vec4(0.25f, 0.25f, 0.25f, 1);
   }
   const Grid<u8vec4> plain = gpu::encode_srgb(test_context(), colors, 0);
