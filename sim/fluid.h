@@ -105,7 +105,7 @@ struct FluidSolid {
   dvec3 velocity{0};  ///< m/s
 };
 
-/// A ball in which smoke, temperature and velocity are held at values.
+/// A ball in which smoke and temperature are held at values; velocity too, unless it is 0.
 struct FluidSource {
   dvec3 center{0};    ///< m
   double radius = 0;  ///< m
