@@ -42,11 +42,12 @@ FluidState split_step(const FluidProblem& problem, const FluidState& state, doub
   for (int axis = 0; axis < 3; ++axis)
     result.velocity[std::size_t(axis)] =
         advect(problem, state.velocity, state.velocity[std::size_t(axis)], axis, seconds, p.method);
-  result = push(problem, hold_sources(problem, result, seconds), seconds);
   if (p.viscosity > 0)
     result.velocity = p.implicit_viscosity
                           ? diffuse_implicit(problem.domain, result.velocity, p.viscosity, seconds)
                           : diffuse_explicit(problem.domain, result.velocity, p.viscosity, seconds);
+  // After viscosity: what a force pushes against a wall is not yet flow that could rub on it.
+  result = push(problem, hold_sources(problem, result, seconds), seconds);
   result.time = state.time + seconds;
   return project(problem, result, seconds);
 }

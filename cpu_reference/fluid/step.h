@@ -6,7 +6,7 @@ namespace parity::cpu {
 
 /// One step of `seconds`, by the method of the problem: upwind and central with the Runge-Kutta
 /// method of order 3 of Shu & Osher, projecting after each stage; the others split into advection,
-/// forces, viscosity and projection. Not for liquids: those are cpu::liquid_step.
+/// viscosity, forces and projection. Not for liquids: those are cpu::liquid_step.
 ///
 /// Accuracy: central O(h^2 + step^3) in velocity; split methods O(h^2 / step + step).
 /// Source: notes 10.4; Chorin 1968; Shu & Osher 1988.

@@ -4,6 +4,7 @@
 
 #include "gpu/core/buffer.h"
 #include "gpu/core/commands.h"
+#include "gpu/numerics/pressure_system.h"
 #include "shaders/fluid/layout.h"
 #include "sim/fluid.h"
 

@@ -247,15 +247,18 @@ void FluidSimulation::record_scalar(Commands& commands, const Buffer<float>& fie
   now.field = field;
   now.field_result = scalar_;
   commands.dispatch(advect_, buffers_.threads(3), now);
+  BufferRef<float> advected = scalar_;
   if (problem_.parameters.method == FluidMethod::maccormack) {
     now.other = {scalar_, scalar_, scalar_};
-    now.field_result = scalar_forth_;
+    now.field_result = advected = scalar_forth_;
     now.mode = 1;
     commands.dispatch(advect_, buffers_.threads(3), now);
-    commands.copy(scalar_forth_, field, 0, 0, field.count());
-  } else {
-    commands.copy(scalar_, field, 0, 0, field.count());
   }
+  // By a kernel, which does nothing once the end is reached.
+  now.field = advected;
+  now.field_result = field;
+  now.mode = 2;
+  commands.dispatch(advect_, buffers_.threads(3), now);
 }
 
 void FluidSimulation::record_smoke(Commands& commands, std::uint32_t mode, std::uint32_t axis) {
@@ -311,6 +314,8 @@ void FluidSimulation::record_split(Commands& commands) {
   record_scalar(commands, smoke_);
   record_scalar(commands, temperature_);
   record_advection(commands);
+  // Before the forces: what they push against a wall is not yet flow that could rub on it.
+  if (problem_.parameters.viscosity > 0) record_viscosity(commands);
   record_smoke(commands, std::uint32_t(Smoke::sources), 0);
   if (problem_.parameters.vorticity_confinement > 0) {
     record_smoke(commands, std::uint32_t(Smoke::vorticity), 0);
@@ -318,7 +323,6 @@ void FluidSimulation::record_split(Commands& commands) {
   }
   for (std::uint32_t axis = 0; axis < axes(); ++axis)
     record_smoke(commands, std::uint32_t(Smoke::forces), axis);
-  if (problem_.parameters.viscosity > 0) record_viscosity(commands);
   projection_.record(commands, buffers_.other, 1);
   for (int axis = 0; axis < int(axes()); ++axis)
     commands.copy(buffers_.other[axis], buffers_.velocity[axis], 0, 0,

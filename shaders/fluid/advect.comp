@@ -1,4 +1,5 @@
 #version 460
+#include "numerics/layout.h"
 #include "fluid/layout.h"
 #include "fluid/grid.glsl"
 #include "fluid/trace.glsl"
@@ -12,6 +13,7 @@ const uint semi_lagrangian = 0u;
 /// other, or field_result before, holds the field carried forth by semi_lagrangian: it is carried back
 /// and half of what is missing then is given to it, within the values around the place it came from.
 const uint correct = 1u;
+const uint keep = 2u;  ///< cells: field_result = field
 
 void main() {
   const float step = args.clock.at[0].step;
@@ -20,6 +22,10 @@ void main() {
   const ivec3 size = points_of(scene.cells, args.axis);
   const uint index = gl_GlobalInvocationID.x;
   if (index >= point_count(size)) return;
+  if (args.mode == keep) {
+    args.field_result.at[index] = args.field.at[index];
+    return;
+  }
   const ivec3 at = point_of(size, index);
   if (args.axis < 3u && in_closed_wall(scene, args.axis, at)) {
     write_face(args.result, args.axis, index, 0.0);

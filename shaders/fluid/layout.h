@@ -1,9 +1,10 @@
 // What the kernels of the fluid chapter and their hosts share. Fields only. Fields of cells and faces
-// are arrays of floats, x fastest; sim/fluid.h says which face is which.
+// are arrays of floats, x fastest; sim/fluid.h says which face is which. Needs numerics/layout.h
+// before it.
 #ifndef PARITY_FLUID_LAYOUT_H
 #define PARITY_FLUID_LAYOUT_H
 
-#include "../numerics/layout.h"
+#include "../shared.h"
 
 #ifdef __cplusplus
 namespace parity {

@@ -1,4 +1,5 @@
 #version 460
+#include "numerics/layout.h"
 #include "fluid/layout.h"
 
 // Where the particles of each cell begin and end among the sorted; one thread a particle.

@@ -1,4 +1,5 @@
 #version 460
+#include "numerics/layout.h"
 #include "fluid/layout.h"
 #include "fluid/grid.glsl"
 

@@ -1,4 +1,5 @@
 #version 460
+#include "numerics/layout.h"
 #include "fluid/layout.h"
 
 // Begins a pressure solve, or notes how it ended; one thread. The divergence asked for becomes a
