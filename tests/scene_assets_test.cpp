@@ -1,9 +1,5 @@
 #include <gtest/gtest.h>
-#include <malloc.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +10,7 @@
 #include "geometry/input_error.h"
 #include "geometry/scene_io.h"
 #include "tests/gltf_builder.h"
+#include "tests/loading_cost.h"
 #include "tests/shared_data.h"
 #include "tests/temporary_folder.h"
 
@@ -257,74 +254,10 @@ TEST(SceneUris, OpenNothingFromMemory) {
   EXPECT_THROW(load_scene_from_memory(std::as_bytes(std::span(text)), "memory"), InputError);
 }
 
-/// A waved square of 708 x 708 quads, 1,002,528 triangles.
-std::vector<std::byte> million_triangles() {
-  constexpr std::uint32_t side = 708;
-  std::vector<float> positions, normals, uvs;
-  std::vector<std::uint32_t> indices;
-  for (std::uint32_t y = 0; y <= side; ++y)
-    for (std::uint32_t x = 0; x <= side; ++x) {
-      const float u = float(x) / side, v = float(y) / side;
-      positions.insert(positions.end(), {u, 0.1f * std::sin(20 * u), v});
-      normals.insert(normals.end(), {0, 1, 0});
-      uvs.insert(uvs.end(), {u, v});
-      if (x == side || y == side) continue;
-      const std::uint32_t a = y * (side + 1) + x, b = a + side + 1;
-      indices.insert(indices.end(), {a, b, a + 1, a + 1, b, b + 1});
-    }
-  GltfBuilder builder;
-  const int position = builder.accessor(positions, "VEC3");
-  const int normal = builder.accessor(normals, "VEC3");
-  const int uv = builder.accessor(uvs, "VEC2");
-  const int index = builder.accessor(indices, "SCALAR");
-  builder.show({{"attributes", {{"POSITION", position}, {"NORMAL", normal}, {"TEXCOORD_0", uv}}},
-                {"indices", index}});
-  return builder.glb();
-}
-
-/// A line "name:   value kB" of /proc/self/status, in bytes.
-std::size_t memory_status(const std::string& name) {
-  std::ifstream in("/proc/self/status");
-  for (std::string line; std::getline(in, line);)
-    if (line.starts_with(name + ":")) return std::stoul(line.substr(name.size() + 1)) * 1024;
-  return 0;
-}
-
-struct Cost {
-  double seconds = 0;
-  std::size_t bytes = 0;
-  std::size_t triangles = 0;
-};
-
-/// Processor seconds and peak memory of a load, measured in a process of its own.
-Cost cost_of_loading(const fs::path& file) {
-  int ends[2];
-  if (::pipe(ends) != 0) return {};
-  const pid_t child = ::fork();
-  if (child == 0) {
-    ::malloc_trim(0);  // what the parent has freed must not serve the load
-    const std::size_t before = memory_status("VmRSS");
-    const Scene scene = load_scene(file);
-    rusage usage{};
-    ::getrusage(RUSAGE_SELF, &usage);
-    const Cost cost{double(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
-                        1e-6 * double(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec),
-                    memory_status("VmHWM") - before, triangle_count(scene)};
-    const bool sent = ::write(ends[1], &cost, sizeof cost) == ssize_t(sizeof cost);
-    ::_exit(sent ? 0 : 1);
-  }
-  ::close(ends[1]);
-  Cost cost;
-  if (::read(ends[0], &cost, sizeof cost) != ssize_t(sizeof cost)) cost = {};
-  ::close(ends[0]);
-  ::waitpid(child, nullptr, 0);
-  return cost;
-}
-
 TEST(SceneAssets, AMillionTrianglesLoadInTwoSecondsAndFourTimesTheirSize) {
   const TemporaryFolder folder;
-  const fs::path file = folder.write("million.glb", million_triangles());
-  const Cost cost = cost_of_loading(file);
+  const fs::path file = folder.write("million.glb", waved_square(708));
+  const LoadingCost cost = cost_of_loading(file);
   EXPECT_EQ(cost.triangles, 1002528u);
 #ifndef __SANITIZE_ADDRESS__
   EXPECT_LT(cost.seconds, 2);

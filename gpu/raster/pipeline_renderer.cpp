@@ -60,12 +60,12 @@ Grid<T> grid(const Frame& frame, std::vector<T> values) {
   return result;
 }
 
-/// Draws of one pipeline, one culling and one index buffer that follow each other.
-struct Run {
-  Culling culling = Culling::none;
-  const Buffer<std::uint32_t>* indices = nullptr;
-  std::vector<IndexedDraw> draws;
-};
+/// Only how vertices are pulled and what the target holds: the defaults of the rest leave nothing
+/// out.
+std::vector<Specialization> general_specializations(std::vector<Specialization> all) {
+  std::erase_if(all, [](const Specialization& s) { return s.id < 4 || s.id == 7 || s.id > 8; });
+  return all;
+}
 
 }  // namespace
 
@@ -77,7 +77,8 @@ std::vector<Specialization> scene_specializations(const SceneFeatures& features,
           {2, features.lit},
           {3, features.uv_pairs},
           {4, std::bit_cast<std::uint32_t>(largest)},
-          {7, features.colors}};
+          {7, features.colors},
+          {13, features.unlit}};
 }
 
 PipelineRenderer::Targets::Targets(Context& context, const Frame& frame, RenderOptions options)
@@ -102,10 +103,19 @@ bool PipelineRenderer::Targets::fits(const Frame& frame) const {
          o.samples == frame.options.samples;
 }
 
-PipelineRenderer::Key PipelineRenderer::key_of(const Frame& frame, const Draw& draw) const {
+PipelineRenderer::Key PipelineRenderer::key_of(const Frame& frame, const SceneFrame& data,
+                                               const Draw& draw) const {
   const AlphaMode mode = scene_.alpha_mode(draw.material);
-  return {scene_.primitive(draw.mesh, draw.primitive).topology, frame.options.depth,
-          frame.options.samples, mode == AlphaMode::blend, mode == AlphaMode::mask};
+  const SceneFeatures& has = scene_.features();
+  const bool is_plain = !has.textures && !has.colors && !options_.general && !options_.elements &&
+                        frame.options.depth != DepthMode::logarithmic;
+  return {scene_.primitive(draw.mesh, draw.primitive).topology,
+          frame.options.depth,
+          frame.options.samples,
+          mode == AlphaMode::blend,
+          mode == AlphaMode::mask,
+          data.has_placed_lights(),
+          is_plain};
 }
 
 const RasterPipeline<SceneArgs>& PipelineRenderer::pipeline(const Key& key) {
@@ -126,17 +136,24 @@ const RasterPipeline<SceneArgs>& PipelineRenderer::pipeline(const Key& key) {
   options.specializations.push_back({6, corners_of(key.topology)});
   options.specializations.push_back({8, key.blended});
   options.specializations.push_back({9, key.cuts_out});
-  const ShaderCode& fragment = fragment_shader(element, key.depth == DepthMode::logarithmic);
-  return pipelines_.try_emplace(key, context_, shaders::raster_scene_vert, fragment, options)
-      .first->second;
+  options.specializations.push_back({12, key.blended});
+  options.specializations.push_back({14, !key.blended});
+  options.specializations.push_back({15, key.has_placed_lights});
+  if (options_.general) options.specializations = general_specializations(options.specializations);
+  const ShaderCode& vertex =
+      key.is_plain ? shaders::raster_scene_plain_vert : shaders::raster_scene_vert;
+  const ShaderCode& fragment = key.is_plain
+                                   ? shaders::raster_scene_plain_frag
+                                   : fragment_shader(element, key.depth == DepthMode::logarithmic);
+  return pipelines_.try_emplace(key, context_, vertex, fragment, options).first->second;
 }
 
-void PipelineRenderer::prepare(const Frame& frame, const SceneFrame&) {
+void PipelineRenderer::prepare(const Frame& frame, const SceneFrame& data) {
   if (!targets_ || !targets_->fits(frame)) {
     targets_.reset();
     targets_.emplace(context_, frame, options_);
   }
-  for (const Draw& draw : frame.draws) pipeline(key_of(frame, draw));
+  for (const Draw& draw : frame.draws) pipeline(key_of(frame, data, draw));
 }
 
 RenderTargets PipelineRenderer::opaque_targets(const Frame& frame, bool resolve) const {
@@ -170,39 +187,24 @@ RenderTargets PipelineRenderer::blend_targets() const {
 
 /// In the order of the scene, so that of equal depths the first is kept.
 void PipelineRenderer::draw_opaque(RenderPass& pass, const Frame& frame, const SceneFrame& data) {
-  Key key;
-  Run run;
-  const auto flush = [&] {
-    if (run.draws.empty()) return;
-    pass.set_culling(run.culling, false);
-    pass.draw_indexed(pipeline(key), data.args(), *run.indices, run.draws);
-    run.draws.clear();
-  };
   for (std::size_t i = 0; i < frame.draws.size(); ++i) {
     const Draw& draw = frame.draws[i];
-    const Key wanted = key_of(frame, draw);
+    const Key key = key_of(frame, data, draw);
     const SceneBuffers::PrimitiveSlices& slices = scene_.primitive(draw.mesh, draw.primitive);
-    if (wanted.blended || slices.indices.count == 0) continue;
+    if (key.blended || slices.indices.count == 0) continue;
     const Culling culling =
         scene_.double_sided(draw.material) || slices.topology != Topology::triangles
             ? Culling::none
             : (draw.mirrored ? Culling::front : Culling::back);
+    pass.set_culling(culling, false);
     if (options_.elements) {
-      pass.set_culling(culling, false);
-      pass.draw(pipeline(wanted), data.args(), std::uint32_t(slices.indices.count), 1, 0,
-                std::uint32_t(i));
+      pass.draw(pipeline(key), data.args_of(i), std::uint32_t(slices.indices.count));
       continue;
     }
-    const Buffer<std::uint32_t>* indices = &scene_.index_buffer(slices);
-    if (wanted != key || culling != run.culling || indices != run.indices) flush();
-    key = wanted;
-    run.culling = culling;
-    run.indices = indices;
-    run.draws.push_back({.index_count = std::uint32_t(slices.indices.count),
-                         .first_index = std::uint32_t(slices.indices.first),
-                         .first_instance = std::uint32_t(i)});
+    const IndexedDraw all{.index_count = std::uint32_t(slices.indices.count),
+                          .first_index = std::uint32_t(slices.indices.first)};
+    pass.draw_indexed(pipeline(key), data.args_of(i), scene_.index_buffer(slices), {&all, 1});
   }
-  flush();
 }
 
 /// Elements of one topology that follow each other in the sorted order share a draw.
@@ -211,9 +213,9 @@ void PipelineRenderer::draw_blended(RenderPass& pass, const Frame& frame, const 
   std::size_t first = 0;
   while (first < order.size()) {
     const Draw& draw = frame.draws[order[first].x];
-    const Key key = key_of(frame, draw);
+    const Key key = key_of(frame, data, draw);
     std::size_t end = first + 1;
-    while (end < order.size() && key_of(frame, frame.draws[order[end].x]) == key) ++end;
+    while (end < order.size() && key_of(frame, data, frame.draws[order[end].x]) == key) ++end;
     const std::uint32_t corners = corners_of(key.topology);
     pass.set_culling(Culling::none, false);
     pass.draw(pipeline(key), data.args(), std::uint32_t(end - first) * corners, 1,

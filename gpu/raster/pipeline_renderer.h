@@ -34,6 +34,8 @@ class PipelineRenderer {
     int samples = 1;
     bool blended = false;
     bool cuts_out = false;
+    bool has_placed_lights = false;
+    bool is_plain = false;  ///< no attribute but positions and normals
     auto operator<=>(const Key&) const = default;
   };
 
@@ -61,7 +63,7 @@ class PipelineRenderer {
   void draw_blended(RenderPass& pass, const Frame& frame, const SceneFrame& data);
   void read_back(Commands& commands) const;
   Picture picture(const Frame& frame) const;
-  Key key_of(const Frame& frame, const Draw& draw) const;
+  Key key_of(const Frame& frame, const SceneFrame& data, const Draw& draw) const;
 
   Context& context_;
   const SceneBuffers& scene_;

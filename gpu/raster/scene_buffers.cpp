@@ -151,10 +151,12 @@ void SceneBuffers::add_material(Context& context, const Scene& scene, const Mate
   entry.texture_count = std::uint32_t(textures.size()) - entry.first_texture;
   features_.textures |= entry.texture_count > 0;
   features_.lit |= !material.unlit;
+  features_.unlit |= material.unlit;
   features_.cuts_out |= material.alpha_mode == AlphaMode::mask;
   features_.uv_pairs = std::max(features_.uv_pairs, std::uint32_t((sets.size() + 1) / 2));
   alpha_modes_.push_back(material.alpha_mode);
   double_sided_.push_back(material.double_sided);
+  factors_.push_back(entry);
 }
 
 const SceneBuffers::Texels& SceneBuffers::texels(Context& context, const Scene& scene, int image,
@@ -176,6 +178,7 @@ const SceneBuffers::Texels& SceneBuffers::texels(Context& context, const Scene& 
 SceneBuffers::PrimitiveSlices SceneBuffers::add_primitive(const parity::Primitive& primitive) {
   PrimitiveSlices slices;
   slices.topology = primitive.topology;
+  features_.unlit |= primitive.topology != Topology::triangles;
   slices.indices = indices_.add(primitive.indices);
   slices.positions = vectors_.add(primitive.positions);
   if (!primitive.normals.empty()) slices.normals = vectors_.add(primitive.normals);

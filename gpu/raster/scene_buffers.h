@@ -17,7 +17,8 @@ namespace parity::gpu {
 struct SceneFeatures {
   bool textures = false;
   bool normal_maps = false;
-  bool lit = false;  ///< some material is not unlit
+  bool lit = false;    ///< some material is not unlit
+  bool unlit = false;  ///< some material is, or there are points or lines
   bool colors = false;
   bool cuts_out = false;
   std::uint32_t uv_pairs = 0;  ///< pairs of uv sets that one material reads
@@ -52,6 +53,8 @@ class SceneBuffers {
   /// As scene.materials; -1 names the default.
   AlphaMode alpha_mode(int material) const { return alpha_modes_[number(material)]; }
   bool double_sided(int material) const { return double_sided_[number(material)]; }
+  /// Without what its textures add.
+  const SceneMaterial& factors(int material) const { return factors_[number(material)]; }
   std::uint32_t number(int material) const {
     return material < 0 ? std::uint32_t(alpha_modes_.size() - 1) : std::uint32_t(material);
   }
@@ -88,6 +91,7 @@ class SceneBuffers {
   std::vector<std::vector<int>> uv_sets_;  ///< by material and slot
   std::vector<AlphaMode> alpha_modes_;     ///< by material, the default last
   std::vector<bool> double_sided_;
+  std::vector<SceneMaterial> factors_;
   Buffer<SceneMaterial> materials_;
   Buffer<SceneTexture> textures_;
   Buffer<float> linear_from_srgb_;

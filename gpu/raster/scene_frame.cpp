@@ -133,6 +133,7 @@ SceneFrame::SceneFrame(Context& context, const SceneBuffers& scene, BlendedPrimi
     SceneDraw& entry = draws_.emplace_back(scene.describe(slices, draw.material));
     place(entry, draw, frame.eye);
     entry.first_element = first_element;
+    factors_.push_back(scene.factors(draw.material));
     first_element += std::uint32_t(slices.indices.count / entry.corners);
     if (entry.corners == 3) triangle_count_ += slices.indices.count / 3;
   }
@@ -151,6 +152,19 @@ SceneFrame::SceneFrame(Context& context, const SceneBuffers& scene, BlendedPrimi
            .orthographic = frame.orthographic ? 1u : 0u,
            .near = float(frame.near),
            .log2_far_over_near = float(log2_far_over_near(frame))};
+  has_placed_lights_ = std::ranges::any_of(frame.lights, [](const PlacedLight& placed) {
+    return placed.light.kind != LightKind::directional;
+  });
+}
+
+SceneArgs SceneFrame::args_of(std::size_t draw) const {
+  SceneArgs args = args_;
+  args.draws = draw_buffer_.ref(draw);
+  args.metallic = factors_[draw].metallic;
+  args.roughness = factors_[draw].roughness;
+  args.base_color = factors_[draw].base_color;
+  args.emission = factors_[draw].emission;
+  return args;
 }
 
 }  // namespace parity::gpu

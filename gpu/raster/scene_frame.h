@@ -40,6 +40,9 @@ class SceneFrame {
              const Frame& frame);
 
   const SceneArgs& args() const { return args_; }
+  /// The same for one draw: `draws` begins there, and the factors are those of its material.
+  SceneArgs args_of(std::size_t draw) const;
+  bool has_placed_lights() const { return has_placed_lights_; }
   const std::vector<SceneDraw>& draws() const { return draws_; }
   const std::vector<uvec2>& order() const { return order_; }
   std::uint64_t triangle_count() const { return triangle_count_; }
@@ -51,6 +54,8 @@ class SceneFrame {
   Buffer<SceneLight> light_buffer_;
   Buffer<uvec2> order_buffer_;
   SceneArgs args_{};
+  std::vector<SceneMaterial> factors_;  ///< by draw, without textures
+  bool has_placed_lights_ = false;      ///< points or spots
   std::uint64_t triangle_count_ = 0;
 };
 

@@ -1,5 +1,5 @@
 #version 460
-#include "raster/scene_fragment.glsl"
+#include "raster/scene_varyings.glsl"
 
 // One fragment of the scene.
 void main() {

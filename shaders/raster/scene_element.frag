@@ -1,5 +1,5 @@
 #version 460
-#include "raster/scene_fragment.glsl"
+#include "raster/scene_varyings.glsl"
 
 // One fragment of the scene, and which element it is of.
 layout(location = 1) out uint out_element;

@@ -7,30 +7,26 @@
 layout(scalar, push_constant) uniform Push { SceneArgs args; };
 
 layout(constant_id = 8) const bool in_order = false;  // blended: culls by itself
-layout(constant_id = 9) const bool cuts_out = true;   // alpha masks
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
-layout(location = 2) in vec4 tangent;
-layout(location = 3) in vec4 color;
 layout(location = 4) flat in uvec2 ids;
-layout(location = 5) in vec4 uv[3];
 layout(location = 0) out vec4 out_color;
 
-// Colour (straight) and alpha of this fragment, unless it is cut out.
-vec4 shade() {
+// Without what only textures and vertex colours need.
+Fragment plain_fragment() {
   Fragment f;
   f.position = position;
   f.normal = normal;
-  f.tangent = has_normal_maps ? tangent : vec4(0.0);
-  f.color = has_colors ? color : vec4(1.0);
-  [[unroll]] for (uint i = 0u; i < 3u; ++i) {
-    const bool used = has_textures && i < uv_pair_count;
-    f.uv[i] = used ? uv[i] : vec4(0.0);
-    f.uv_dx[i] = used ? dFdxFine(uv[i]) : vec4(0.0);
-    f.uv_dy[i] = used ? dFdyFine(uv[i]) : vec4(0.0);
-  }
+  f.tangent = vec4(0.0);
+  f.color = vec4(1.0);
+  for (uint i = 0u; i < 3u; ++i) f.uv[i] = f.uv_dx[i] = f.uv_dy[i] = vec4(0.0);
   f.front = gl_FrontFacing != ((ids.x & draw_flag_mirrored) != 0u);
+  return f;
+}
+
+// Colour (straight) and alpha of this fragment, unless it is cut out.
+vec4 finish(Fragment f) {
   const vec4 result = shade_fragment(args, ids.x >> 2, (ids.x & draw_flag_unlit) != 0u, f);
   if (cuts_out && result.a < 0.0) discard;
   if (in_order && !f.front) {

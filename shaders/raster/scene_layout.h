@@ -94,7 +94,8 @@ const uint light_directional = 0u;
 const uint light_point = 1u;
 const uint light_spot = 2u;
 
-// What all draws of a frame share.
+// What all draws of a frame share, and what is read so often that it goes with each of them. As push
+// constants, which may be 128 bytes: 4 are left.
 struct SceneArgs {
   REF(SceneDraw) draws;
   REF(SceneMaterial) materials;
@@ -108,6 +109,11 @@ struct SceneArgs {
   uint orthographic;
   float near;
   float log2_far_over_near;  // logarithmic depth only
+  // Factors of the one material that is drawn; not of `order`, where each element has its own.
+  float metallic;
+  float roughness;
+  vec4 base_color;
+  vec3 emission;
 };
 REF_TYPE(SceneArgs, 8)
 

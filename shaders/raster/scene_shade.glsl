@@ -13,6 +13,10 @@ layout(constant_id = 1) const bool has_normal_maps = true;
 layout(constant_id = 2) const bool has_light = true;    // of any kind; else all is unlit
 layout(constant_id = 3) const uint uv_pair_count = 3u;  // pairs of uv sets that are read
 layout(constant_id = 7) const bool has_colors = true;
+layout(constant_id = 9) const bool cuts_out = true;    // alpha masks
+layout(constant_id = 12) const bool blends = true;     // alpha of the material
+layout(constant_id = 13) const bool has_unlit = true;  // points and lines too
+layout(constant_id = 14) const bool one_material = false;  // the arguments hold its factors
 layout(constant_id = 4) const float largest_value = 3.4028234e38;  // of the target
 
 struct Fragment {
@@ -31,6 +35,7 @@ struct Texels {
   vec4 base_color;
   vec3 metallic_roughness;
   vec3 normal;  // 0 to 1
+  bool bends;   // there is a normal map
   float occlusion;
   vec3 emission;
 };
@@ -43,7 +48,7 @@ vec2 uv_of_slot(vec4 pairs[3], uint slot) {
 }
 
 Texels read_textures(SceneArgs args, SceneMaterial material, Fragment f) {
-  Texels result = Texels(vec4(1.0), vec3(1.0), vec3(0.5, 0.5, 1.0), 1.0, vec3(1.0));
+  Texels result = Texels(vec4(1.0), vec3(1.0), vec3(0.5, 0.5, 1.0), false, 1.0, vec3(1.0));
   if (!has_textures) return result;
   [[dont_unroll]] for (uint i = 0u; i < material.texture_count; ++i) {
     SceneTexture t = args.textures.at[material.first_texture + i];
@@ -58,7 +63,10 @@ Texels read_textures(SceneArgs args, SceneMaterial material, Fragment f) {
         vec2(dot(t.u_from_uv.xy, dy), dot(t.v_from_uv.xy, dy)), args.linear_from_srgb);
     if (role == texture_base_color) result.base_color = value;
     if (role == texture_metallic_roughness) result.metallic_roughness = value.rgb;
-    if (role == texture_normal) result.normal = value.rgb;
+    if (role == texture_normal) {
+      result.normal = value.rgb;
+      result.bends = true;
+    }
     if (role == texture_occlusion) result.occlusion = value.r;
     if (role == texture_emission) result.emission = value.rgb;
   }
@@ -69,7 +77,7 @@ Texels read_textures(SceneArgs args, SceneMaterial material, Fragment f) {
 vec3 shading_normal(SceneMaterial material, Fragment f, Texels texels) {
   const float side = f.front ? 1.0 : -1.0;
   const vec3 n = unit_or_zero(f.normal) * side;
-  if (!has_normal_maps) return n;
+  if (!has_normal_maps || !texels.bends) return n;
   const vec3 m = (2.0 * texels.normal - 1.0) * vec3(material.normal_scale, material.normal_scale, 1.0);
   const vec3 t = unit_or_zero(f.tangent.xyz) * side;
   const vec3 b = cross(n, t) * (f.tangent.w * side);
@@ -91,16 +99,28 @@ vec3 lit_radiance(SceneArgs args, SceneMaterial material, Fragment f, Texels tex
   return sum;
 }
 
+SceneMaterial material_of(SceneArgs args, uint index) {
+  SceneMaterial material = args.materials.at[index];
+  if (one_material) {
+    material.base_color = args.base_color;
+    material.emission = args.emission;
+    material.metallic = args.metallic;
+    material.roughness = args.roughness;
+  }
+  return material;
+}
+
 // Colour (straight) and alpha. Alpha below 0: the fragment is cut out.
 vec4 shade_fragment(SceneArgs args, uint material_index, bool unlit, Fragment f) {
-  const SceneMaterial material = args.materials.at[material_index];
+  const SceneMaterial material = material_of(args, material_index);
   const Texels texels = read_textures(args, material, f);
   const vec4 base = material.base_color * texels.base_color * f.color;
-  const bool mask = (material.flags & material_flag_mask) != 0u;
-  const bool blend = (material.flags & material_flag_blend) != 0u;
+  const bool mask = cuts_out && (material.flags & material_flag_mask) != 0u;
+  const bool blend = blends && (material.flags & material_flag_blend) != 0u;
   if (mask && base.a < material.alpha_cutoff) return vec4(0.0, 0.0, 0.0, -1.0);
   vec3 color = base.rgb;
-  if (has_light && !unlit && (material.flags & material_flag_unlit) == 0u)
+  const bool shows_base = has_unlit && (unlit || (material.flags & material_flag_unlit) != 0u);
+  if (has_light && !shows_base)
     color = lit_radiance(args, material, f, texels, base.rgb);
   return vec4(min(color, vec3(largest_value)), blend ? base.a : 1.0);
 }

@@ -3,6 +3,9 @@
 #define PARITY_SHADING_PUNCTUAL_LIGHT_GLSL
 #include "raster/scene_layout.h"
 
+// Of the frame: kinds that are not there are left out.
+layout(constant_id = 15) const bool has_placed_lights = true;  // points and spots
+
 // Irradiance on a surface that faces the light, and the way to it.
 struct IncidentLight {
   vec3 irradiance;
@@ -10,7 +13,7 @@ struct IncidentLight {
 };
 
 IncidentLight incident_light(SceneLight light, vec3 p) {
-  if (light.kind == light_directional) return IncidentLight(light.intensity, -light.direction);
+  if (!has_placed_lights || light.kind == light_directional) return IncidentLight(light.intensity, -light.direction);
   const vec3 d = light.position - p;
   const float squared = dot(d, d);
   if (!(squared > 0.0)) return IncidentLight(vec3(0.0), vec3(0.0));

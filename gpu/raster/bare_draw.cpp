@@ -1,0 +1,65 @@
+#include "gpu/raster/bare_draw.h"
+
+#include <array>
+
+#include "gpu/raster/half.h"
+#include "shaders.h"
+
+namespace parity::gpu {
+namespace {
+
+RasterOptions raster_options() {
+  RasterOptions options;
+  options.colors = {Format::rgba16_float};
+  options.depth = Format::d32_float;
+  options.depth_compare = Compare::greater;
+  options.culling = Culling::back;
+  return options;
+}
+
+}  // namespace
+
+BareDraw::BareDraw(Context& context, const parity::Primitive& primitive, int width, int height)
+    : context_(context),
+      pipeline_(context, shaders::raster_bare_vert, shaders::raster_bare_frag, raster_options()),
+      color_(context, {.width = width, .height = height, .format = Format::rgba16_float}),
+      depth_(context, {.width = width, .height = height, .format = Format::d32_float}),
+      positions_(context, primitive.positions),
+      normals_(context, primitive.normals),
+      indices_(context, primitive.indices),
+      color_words_(context, 2 * std::size_t(width) * std::size_t(height)),
+      depth_values_(context, std::size_t(width) * std::size_t(height)) {}
+
+Timing BareDraw::draw(const Frame& frame, const Material& material) {
+  const PlacedLight& light = frame.lights.at(0);
+  const BareArgs args{.clip_from_object = frame.draws.at(0).clip_from_object,
+                      .positions = positions_,
+                      .normals = normals_,
+                      .eye = vec3(frame.eye),
+                      .ambient = frame.ambient.x,
+                      .to_light = vec3(-light.direction),
+                      .irradiance = light.light.intensity,
+                      .base_color = material.base_color.x,
+                      .metallic = material.metallic,
+                      .roughness = material.roughness};
+  const IndexedDraw all{.index_count = std::uint32_t(indices_.count())};
+  return context_.run([&](Commands& commands) {
+    commands.pass("draw");
+    commands.render({.colors = {{.image = &color_, .clear = std::array<float, 4>{}}},
+                     .depth = DepthTarget{.image = &depth_, .clear = 0.0f}},
+                    [&](RenderPass& pass) {
+                      pass.draw_indexed(pipeline_, args, indices_, {&all, 1});
+                    });
+    commands.pass("readback");
+    commands.copy(color_, color_words_);
+    commands.copy(depth_, depth_values_);
+  });
+}
+
+Grid<vec4> BareDraw::picture() const {
+  Grid<vec4> result(color_.options().width, color_.options().height);
+  result.values() = vec4_from_halves(color_words_.read());
+  return result;
+}
+
+}  // namespace parity::gpu

@@ -1,0 +1,7 @@
+#version 460
+#include "raster/scene_fragment.glsl"
+
+// One fragment of a scene without textures and vertex colours.
+void main() {
+  out_color = finish(plain_fragment());
+}

@@ -1,0 +1,8 @@
+#version 460
+#include "raster/scene_pull.glsl"
+
+// One vertex of a scene without textures and vertex colours: what is not written is not interpolated
+// either, and specialization does not take outputs away.
+void main() {
+  pull_vertex();
+}

@@ -1,0 +1,23 @@
+// The fragment stage of scenes with textures or vertex colours.
+#ifndef PARITY_RASTER_SCENE_VARYINGS_GLSL
+#define PARITY_RASTER_SCENE_VARYINGS_GLSL
+#include "raster/scene_fragment.glsl"
+
+layout(location = 2) in vec4 tangent;
+layout(location = 3) in vec4 color;
+layout(location = 5) in vec4 uv[3];
+
+// Colour (straight) and alpha of this fragment, unless it is cut out.
+vec4 shade() {
+  Fragment f = plain_fragment();
+  if (has_normal_maps) f.tangent = tangent;
+  if (has_colors) f.color = color;
+  [[unroll]] for (uint i = 0u; i < 3u; ++i) {
+    if (!has_textures || i >= uv_pair_count) continue;
+    f.uv[i] = uv[i];
+    f.uv_dx[i] = dFdxFine(uv[i]);
+    f.uv_dy[i] = dFdyFine(uv[i]);
+  }
+  return finish(f);
+}
+#endif
