@@ -13,6 +13,7 @@ std::vector<std::byte> waved_square(std::uint32_t side);
 
 struct LoadingCost {
   double seconds = 0;     ///< of the processor
+  double wall = 0;        ///< seconds that it took
   std::size_t bytes = 0;  ///< most that the process grew by
   std::size_t triangles = 0;
 };
