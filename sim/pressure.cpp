@@ -92,7 +92,10 @@ Field pressure_residual(const PressureProblem& problem, const Field& pressure) {
 
 double largest_magnitude(const Field& field) {
   double largest = 0;
-  for (const double value : field.values) largest = std::max(largest, std::abs(value));
+  for (const double value : field.values) {
+    if (std::isnan(value)) return value;
+    largest = std::max(largest, std::abs(value));
+  }
   return largest;
 }
 

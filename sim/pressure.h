@@ -39,6 +39,7 @@ PressureProblem pressure_problem(const FluidProblem& fluid, const FluidState& st
 
 /// rhs - A p in fluid cells, 0 elsewhere.
 Field pressure_residual(const PressureProblem& problem, const Field& pressure);
+/// NaN if a value is.
 double largest_magnitude(const Field& field);
 
 /// Nothing fixes the constant: no fluid cell touches air or an open side.

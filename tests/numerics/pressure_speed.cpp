@@ -108,7 +108,7 @@ double contraction(gpu::Context& context, bool is_jacobi, double omega) {
       context, problem, is_jacobi ? gpu::RelaxationMethod::jacobi : gpu::RelaxationMethod::sor,
       omega);
   const double last = largest_magnitude(pressure_residual(problem, answer.pressure));
-  return std::isfinite(last) ? std::pow(last / first, 1.0 / 256) : 10;
+  return std::isfinite(last) ? std::min(std::pow(last / first, 1.0 / 256), 10.0) : 10;
 }
 
 const Registration relaxation_map = register_map(
