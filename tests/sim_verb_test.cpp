@@ -160,8 +160,7 @@ TEST(SimVerb, WrongUsageIsOneLineAndExitCode2) {
   const std::string good = program + "small.json -o out --backend cpu ";
   for (const std::string& line :
        {program + "none.json -o out", program + "bad.json -o out", program + "small.json",
-        good + "--resume", good + "--frames 3", good + "--formats gif",
-        good + "--size 0x7"}) {
+        good + "--resume", good + "--frames 3", good + "--formats gif", good + "--size 0x7"}) {
     const auto [code, output] = shell(folder, line);
     EXPECT_EQ(code, 2) << line << ": " << output;
     EXPECT_EQ(std::count(output.begin(), output.end(), '\n'), 1) << output;
