@@ -30,6 +30,18 @@ constexpr const char* small_dam = R"({
   "liquid": [{"box": {"min": [0, 0], "max": [0.3, 0.4]}}],
   "picture": {"size": [96, 54], "samples": 1}, "output": ["png", "ply", "vtk"]})";
 
+constexpr const char* small_smoke = R"({
+  "parity_sim": 1, "method": "grid", "resolution": 10, "duration": 0.06, "frames_per_second": 50,
+  "domain": {"size": [1, 1], "sides": {"top": "open"}},
+  "sources": [{"sphere": {"center": [0.5, 0.2], "radius": 0.15}, "temperature": 200}],
+  "solids": [{"sphere": {"center": [0.5, 0.7], "radius": 0.12}}],
+  "picture": {"size": [64, 64]}, "output": ["png", "vtk"]})";
+
+constexpr const char* small_splash = R"({
+  "parity_sim": 1, "method": "flip", "resolution": 10, "duration": 0.06, "frames_per_second": 50,
+  "domain": {"size": [1, 0.5]}, "liquid": [{"box": {"min": [0, 0], "max": [0.25, 0.4]}}],
+  "picture": {"size": [64, 36], "samples": 1}})";
+
 std::string bytes_of(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_file(path, std::size_t(1) << 30);
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -88,6 +100,28 @@ TEST(SimVerb, ResumedParticlesGoOnToTheSameBits) {
   const SimScene scene = decode_sim_scene(small_dam, "small.json");
   expect_resumes("gpu", scene);
   expect_resumes("cpu", scene);
+}
+
+TEST(SimVerb, ResumedGridsGoOnToTheSameBits) {
+  for (const char* text : {small_smoke, small_splash}) {
+    const SimScene scene = decode_sim_scene(text, "small.json");
+    expect_resumes("gpu", scene);
+    expect_resumes("cpu", scene);
+  }
+}
+
+TEST(SimVerb, SmokeComesOutOfItsSourceAndLiquidKeepsItsMass) {
+  const TemporaryFolder root;
+  for (const char* text : {small_smoke, small_splash}) {
+    ASSERT_EQ(run(root, "out", decode_sim_scene(text, "small.json"), {.frames = ivec2(9, 9)}), 0);
+    const json frames = json::parse(bytes_of(root.path() / "out/metrics.json"))["frames"];
+    const double first = frames.front()["mass_kg"], last = frames.back()["mass_kg"];
+    // The ball of the source in cells of 1/10 m, a slab one cell thick; all of the liquid.
+    const double least = text == small_smoke ? 0.8 * 3.14159 * 0.15 * 0.15 / 10 : first;
+    EXPECT_GE(last, least);
+    EXPECT_TRUE(text == small_smoke || last == first);
+    EXPECT_GT(frames.back()["kinetic_energy_j"], 0.0);
+  }
 }
 
 TEST(SimVerb, WritesWhatTheSceneAsksFor) {

@@ -42,9 +42,9 @@ ChartData sweep(gpu::Context& context) {
   }
   const auto by_height = [](const Point& a, const Point& b) { return a.y < b.y; };
   const double worst = std::ranges::max_element(adaptive.points, by_height)->y;
-  const double best = std::ranges::min_element(twice.points, by_height)->y;
+  const auto broken = std::ranges::count_if(twice.points, [](const Point& p) { return p.y > 1; });
   data.assertions = {{"largest speed / speed of sound over 100 scenes, adaptive step", worst, 1},
-                     {"smallest of the same over 10 scenes, twice the stable step", best, 1,
+                     {"of 10 scenes, those above 1 at twice the stable step", double(broken), 5,
                       Assertion::Relation::at_least}};
   data.series = {
       std::move(adaptive),
