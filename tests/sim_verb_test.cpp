@@ -33,7 +33,7 @@ constexpr const char* small_dam = R"({
 constexpr const char* small_smoke = R"({
   "parity_sim": 1, "method": "grid", "resolution": 10, "duration": 0.06, "frames_per_second": 50,
   "domain": {"size": [1, 1], "sides": {"top": "open"}},
-  "sources": [{"sphere": {"center": [0.5, 0.2], "radius": 0.15}, "temperature": 200}],
+  "sources": [{"sphere": {"center": [0.55, 0.25], "radius": 0.15}, "temperature": 200}],
   "solids": [{"sphere": {"center": [0.5, 0.7], "radius": 0.12}}],
   "picture": {"size": [64, 64]}, "output": ["png", "vtk"]})";
 
