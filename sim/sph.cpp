@@ -78,6 +78,9 @@ void check_sph_problem(const SphProblem& problem) {
   if (state.positions.size() != state.velocities.size())
     refuse("velocities are " + std::to_string(state.velocities.size()),
            "as many as positions, " + std::to_string(state.positions.size()));
+  if (!state.pressures.empty() && state.pressures.size() != state.positions.size())
+    refuse("pressures are " + std::to_string(state.pressures.size()),
+           "none or as many as positions, " + std::to_string(state.positions.size()));
   check_points("position", state.positions, p.dimensions);
   check_points("velocity", state.velocities, p.dimensions);
   check_points("boundary position", problem.boundary, p.dimensions);

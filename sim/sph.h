@@ -15,7 +15,7 @@ namespace parity {
 enum class SphKernel : std::uint32_t { cubic_spline, poly6, spiky, wendland };
 
 /// How pressure comes about: from the density by an equation of state, or from the demand that
-/// density and its rate of change stay constant.
+/// no particle is denser than at rest at the end of the step.
 enum class SphMethod : std::uint32_t { weakly_compressible, divergence_free };
 
 /// Pressure of a density: c^2 (rho - rho_0) as in the notes, or Tait's
@@ -39,7 +39,8 @@ struct SphParameters {
   double courant = 0.5;    ///< fraction of the stable step that an adaptive step takes, in (0, 1]
   double fixed_step = 0;   ///< s; 0: adaptive
   double max_step = 0.01;  ///< s, of an adaptive step
-  double density_error = 1e-3;  ///< average compression at which the incompressible solver stops
+  double density_error = 5e-4;  ///< average compression at which the incompressible solver stops;
+                                ///< the largest may be ten times that
   std::uint32_t max_iterations = 100;  ///< of that solver, per step
 };
 
@@ -57,6 +58,7 @@ struct SphState {
   double time = 0;               ///< s
   std::vector<vec3> positions;   ///< m
   std::vector<vec3> velocities;  ///< m/s
+  std::vector<float> pressures;  ///< Pa, that the incompressible solver begins with; none: 0
 };
 
 /// A box of space, m.
@@ -94,7 +96,8 @@ std::vector<vec3> cover_box(const SphBox& box, double spacing, std::uint32_t dim
 /// 1952. `count` particles along the width.
 SphProblem sph_dam_break(std::uint32_t dimensions, double width, int count);
 
-/// Fluid of `height` at rest in a tank `width` wide; `count` particles along the height.
+/// Fluid of `height` at rest under its own weight in a tank `width` wide; `count` particles along
+/// the height.
 SphProblem sph_hydrostatic_column(std::uint32_t dimensions, double width, double height, int count);
 
 /// Two columns at opposite walls collapse onto a block between them; `count` particles along the

@@ -92,7 +92,9 @@ void Neighbours::weigh_boundary(Context& context, const std::vector<vec3>& bound
 
 void Neighbours::record(Commands& commands, BufferRef<vec4> positions) {
   if (count_ == 0) return;
+  commands.pass("sort");
   cells_.record(commands, constants_, positions);
+  commands.pass("neighbours");
   commands.dispatch(neighbours_, {count_},
                     {.constants = constants_,
                      .positions = cells_.sorted(),

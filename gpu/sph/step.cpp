@@ -35,11 +35,15 @@ SphStep::SphStep(Context& context, const SphProblem& problem)
       limits_(context, shaders::sph_limits_comp),
       clock_(context, shaders::sph_clock_comp),
       integrate_(context, shaders::sph_integrate_comp),
+      solve_end_(context, shaders::sph_solve_end_comp),
       positions_(context, count_),
       velocities_(context, count_),
       densities_of_ids_(context, std::vector<float>(count_)),
+      pressures_(context, count_),
       block_limits_(context, blocks_),
       clock_buffer_(context, std::vector<SphClock>(1)) {
+  if (problem.parameters.method == SphMethod::divergence_free)
+    solver_.emplace(context, problem, sph_constants(problem));
   write(problem.initial);
 }
 
@@ -50,6 +54,10 @@ void SphStep::write(const SphState& state) {
                                 " velocities, must be " + std::to_string(count_));
   positions_.write(with_zero(state.positions));
   velocities_.write(with_zero(state.velocities));
+  if (!state.pressures.empty() && state.pressures.size() != count_)
+    throw std::invalid_argument("SphStep::write: " + std::to_string(state.pressures.size()) +
+                                " pressures, must be 0 or " + std::to_string(count_));
+  pressures_.write(state.pressures.empty() ? std::vector<float>(count_) : state.pressures);
   SphClock clock{};
   clock.time = split(state.time).high;
   clock.time_rest = split(state.time).rest;
@@ -61,16 +69,20 @@ SphState SphStep::read() const {
   state.time = report().time;
   for (const vec4& p : positions_.read()) state.positions.emplace_back(p);
   for (const vec4& v : velocities_.read()) state.velocities.emplace_back(v);
+  if (solver_) state.pressures = pressures_.read();
   return state;
 }
 
 SphReport SphStep::report() const {
   const SphClock clock = clock_buffer_.read()[0];
+  const SphSolver solver = solver_ ? solver_->solver().read()[0] : SphSolver{};
   return {.time = double(clock.time) + double(clock.time_rest),
           .last_step = clock.step,
           .max_speed = clock.max_speed,
           .max_density = clock.max_density,
           .steps = clock.steps,
+          .iterations = solver.iterations,
+          .compression = solver.average,
           .crowded = clock.crowded};
 }
 
@@ -95,7 +107,6 @@ void SphStep::record_clock(Commands& commands, double until) {
 }
 
 void SphStep::record(Commands& commands, double until) {
-  commands.pass("neighbours");
   neighbours_.record(commands, positions_);
   commands.pass("density");
   densities_.record(commands, neighbours_, velocities_);
@@ -103,17 +114,37 @@ void SphStep::record(Commands& commands, double until) {
   forces_.record(commands, neighbours_, densities_);
   commands.pass("step");
   record_clock(commands, until);
-  if (count_ == 0) return;
-  commands.dispatch(integrate_, {count_},
-                    {.constants = neighbours_.constants(),
-                     .clock = clock_buffer_,
+  if (count_ > 0) record_motion(commands);
+}
+
+void SphStep::record_motion(Commands& commands) {
+  if (!solver_) {
+    commands.dispatch(integrate_, {count_},
+                      {.constants = neighbours_.constants(),
+                       .clock = clock_buffer_,
+                       .ids = neighbours_.cells().ids(),
+                       .places = densities_.places(),
+                       .motions = densities_.motions(),
+                       .accelerations = forces_.accelerations(),
+                       .positions = positions_,
+                       .velocities = velocities_,
+                       .densities = densities_of_ids_,
+                       .pressures = pressures_,
+                       .count = count_});
+    return;
+  }
+  commands.pass("pressure");
+  solver_->record(commands, neighbours_, densities_, forces_, clock_buffer_, pressures_);
+  commands.dispatch(solve_end_, {count_},
+                    {.clock = clock_buffer_,
                      .ids = neighbours_.cells().ids(),
                      .places = densities_.places(),
-                     .motions = densities_.motions(),
-                     .accelerations = forces_.accelerations(),
+                     .moved = solver_->moved(),
+                     .impulses = solver_->impulses(),
                      .positions = positions_,
                      .velocities = velocities_,
                      .densities = densities_of_ids_,
+                     .pressures = pressures_,
                      .count = count_});
 }
 

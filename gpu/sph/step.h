@@ -1,22 +1,26 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
-#include "gpu/sph/forces.h"
+#include "gpu/sph/pressure.h"
 
 namespace parity::gpu {
 
 /// What a run of steps came to.
 struct SphReport {
-  double time = 0;            ///< s
-  double last_step = 0;       ///< s
-  double max_speed = 0;       ///< m/s, before the last step
-  double max_density = 0;     ///< kg/m^3
-  std::uint32_t steps = 0;    ///< since the problem began or was written
-  std::uint32_t crowded = 0;  ///< times that a particle had more neighbours than its list holds
+  double time = 0;               ///< s
+  double last_step = 0;          ///< s
+  double max_speed = 0;          ///< m/s, before the last step
+  double max_density = 0;        ///< kg/m^3
+  std::uint32_t steps = 0;       ///< since the problem began or was written
+  std::uint32_t iterations = 0;  ///< of the pressure solver in the last step
+  double compression = 0;        ///< average, that the pressure solver left
+  std::uint32_t crowded = 0;     ///< times that a particle had more neighbours than its list holds
 };
 
-/// A particle fluid on the device: neighbours, densities, forces, step, without a word to the host.
+/// A particle fluid on the device: neighbours, densities, forces, step, without a word to the host,
+/// weakly compressible or (divergence_free) with the pressures of PressureSolver.
 /// The step adapts to waves, speed, force and viscosity unless the parameters fix it. The state
 /// after any number of steps depends on the state before alone, bit for bit.
 ///
@@ -45,9 +49,12 @@ class SphStep {
   const Buffer<vec4>& velocities() const { return velocities_; }
   /// kg/m^3, as the last step found them.
   const Buffer<float>& densities() const { return densities_of_ids_; }
+  /// Pa, of the last step.
+  const Buffer<float>& pressures() const { return pressures_; }
 
  private:
   void record_clock(Commands& commands, double until);
+  void record_motion(Commands& commands);
 
   std::uint32_t count_;
   std::uint32_t blocks_;
@@ -57,9 +64,12 @@ class SphStep {
   Kernel<LimitsArgs> limits_;
   Kernel<ClockArgs> clock_;
   Kernel<IntegrateArgs> integrate_;
+  Kernel<SolveEndArgs> solve_end_;
+  std::optional<PressureSolver> solver_;  ///< of the incompressible method
   Buffer<vec4> positions_;
   Buffer<vec4> velocities_;
   Buffer<float> densities_of_ids_;
+  Buffer<float> pressures_;
   Buffer<SphLimits> block_limits_;
   Buffer<SphClock> clock_buffer_;
 };

@@ -8,8 +8,8 @@ float stable_step(float w2, float g) {
   return result;
 }
 
-/// Fraction `courant` of the stable step, and no particle goes farther than 0.4 of half the support
-/// nor is accelerated through 1/4 of it. Source: Monaghan 1992, 2005.
+/// Fraction `courant` of the stable step, and of that in which a particle goes 0.8 of half the
+/// support; nor is any accelerated through 1/4 of it. Source: Monaghan 1992, 2005.
 float adaptive_step(SphConstants c, SphLimits limits) {
   float w2 = c.tension_rate;
   if (c.stiff != 0u) {
@@ -22,14 +22,15 @@ float adaptive_step(SphConstants c, SphLimits limits) {
   float step = c.max_step;
   if (w2 > 0.0 || c.viscous_rate > 0.0)
     step = min(step, c.courant * stable_step(w2, c.viscous_rate));
-  if (limits.speed > 0.0) step = min(step, 0.4 * half_support / sqrt(limits.speed));
+  if (limits.speed > 0.0) step = min(step, c.courant * 0.8 * half_support / sqrt(limits.speed));
   if (limits.acceleration > 0.0)
     step = min(step, 0.25 * sqrt(half_support / sqrt(limits.acceleration)));
   return step;
 }
 
-/// Adds the step to the time, or goes to `until` exactly where the step would pass it. The two
-/// floats of the time are a sum without rounding (Knuth's two-sum).
+/// Adds the step to the time, or goes to `until` exactly where the step would pass it; where two
+/// steps would, half the way, so that no step is tiny. The two floats of the time are a sum without
+/// rounding (Knuth's two-sum).
 void advance_clock(inout SphClock clock, float step, float until, float until_rest) {
   precise const float remaining = (until - clock.time) + (until_rest - clock.time_rest);
   if (!(remaining > 0.0)) {
@@ -43,8 +44,9 @@ void advance_clock(inout SphClock clock, float step, float until, float until_re
     clock.time_rest = until_rest;
     return;
   }
-  clock.step = step;
-  precise const float addend = clock.time_rest + step;
+  precise const float length = remaining < 2.0 * step ? 0.5 * remaining : step;
+  clock.step = length;
+  precise const float addend = clock.time_rest + length;
   precise const float sum = clock.time + addend;
   precise const float shown = sum - clock.time;
   precise const float rest = (clock.time - (sum - shown)) + (addend - shown);

@@ -32,7 +32,8 @@ vec3 wall_acceleration(SphConstants c, vec4 place, vec4 motion, vec4 wall) {
   precise const vec3 d = place.xyz - wall.xyz;
   precise const float r2 = squared_length(d);
   precise const float slope = kernel_slope(r2, c.support, c.kernel_scale);
-  precise const float answer = max(motion.w - inner_product(c.gravity, d) / place.w, 0.0);
+  precise const float carried = max(motion.w - inner_product(c.gravity, d) / place.w, 0.0);
+  const float answer = c.stiff != 0u ? carried : 0.0;
   precise const float viscous = viscous_factor(c, d, motion.xyz, r2, wall.w / place.w);
   precise const vec3 result = (viscous - wall.w * (motion.w + answer)) * slope * d;
   return result;

@@ -15,5 +15,7 @@ void main() {
   precise const vec3 position = args.places.at[i].xyz + dt * velocity;
   args.velocities.at[id] = vec4(velocity, 0.0);
   args.positions.at[id] = vec4(position, 0.0);
-  args.densities.at[id] = args.places.at[i].w;
+  const float density = args.places.at[i].w;
+  args.densities.at[id] = density;
+  args.pressures.at[id] = args.motions.at[i].w * density * density;
 }

@@ -162,6 +162,72 @@ struct ClockArgs {
   uint padding;
 };
 
+/// How far the pressure solver has come.
+struct SphSolver {
+  uint running;
+  uint iterations;
+  float average;  ///< predicted compression
+  float largest;
+};
+REF_TYPE(SphSolver, 4)
+
+struct SolveBeginArgs {
+  REF(SphConstants) constants;
+  REF(SphClock) clock;
+  REF(uint) ids;
+  REF(vec4) places;
+  REF(vec4) motions;
+  REF(vec4) accelerations;
+  REF(vec4) boundary;
+  REF(uint) lists;
+  REF(uvec2) counts;
+  REF(float) pressures;   ///< by id, Pa
+  REF(float) impulses;    ///< sorted: step times p / rho^2
+  REF(vec4) predicted;    ///< velocities without pressure; w: 1 / diagonal
+  REF(SphSolver) solver;
+  uint count;
+  uint padding;
+};
+
+struct SolveArgs {
+  REF(SphConstants) constants;
+  REF(SphClock) clock;
+  REF(vec4) places;
+  REF(vec4) boundary;
+  REF(uint) lists;
+  REF(uvec2) counts;
+  REF(vec4) predicted;
+  REF(float) impulses;
+  REF(vec4) moved;   ///< velocities with pressure; w: predicted compression
+  REF(SphSolver) solver;
+  uint count;
+  uint padding;
+};
+
+struct SolveCheckArgs {
+  REF(vec4) moved;
+  REF(vec2) sums;  ///< of each block: sum and largest
+  REF(SphSolver) solver;
+  uint count;
+  uint block;
+  float tolerance;
+  uint padding;
+};
+
+struct SolveEndArgs {
+  REF(SphClock) clock;
+  REF(uint) ids;
+  REF(vec4) places;
+  REF(vec4) moved;
+  REF(float) impulses;
+  REF(vec4) positions;   ///< by id
+  REF(vec4) velocities;  ///< by id
+  REF(float) densities;  ///< by id
+  REF(float) pressures;  ///< by id
+  uint count;
+  uint padding;
+};
+
 struct IntegrateArgs {
   REF(SphConstants) constants;
   REF(SphClock) clock;
@@ -172,6 +238,7 @@ struct IntegrateArgs {
   REF(vec4) positions;   ///< by id
   REF(vec4) velocities;  ///< by id
   REF(float) densities;  ///< by id
+  REF(float) pressures;  ///< by id
   uint count;
   uint padding;
 };

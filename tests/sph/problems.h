@@ -134,5 +134,25 @@ inline double acceleration_bound(const SphProblem& problem) {
          2 * u * glm::length(p.gravity);
 }
 
+/// How far a run of a random scene gets towards instability, > 1: there. Its energy over what it
+/// has to begin with: motion, height above the lowest corner, compression, and surfaces.
+double random_scene_growth(gpu::Context& context, const SphProblem& problem);
+
+/// A column's pressure after it has come to rest, averaged over layers and over a period of its
+/// bounce.
+struct Column {
+  std::vector<double> depths;     ///< m, of the layers
+  std::vector<double> pressures;  ///< Pa
+  double error = 0;  ///< RMS over layers against the weight above, in pressures at the floor
+};
+Column settle_column(gpu::Context& context, const SphProblem& problem);
+
+/// A box without gravity in 2 dimensions, full of fluid 1 % too dense, so that it has pressure
+/// everywhere, walls on all sides, and random velocities of 1e-4 of the sound speed.
+SphProblem closed_box(int across, double sound_speed, double viscosity);
+
+/// Largest speed after so many steps of the fixed length over that at the start; 1e30 beyond that.
+double speed_growth(gpu::Context& context, const SphProblem& problem, int steps);
+
 }  // namespace sph_test
 }  // namespace parity

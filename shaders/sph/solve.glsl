@@ -1,0 +1,7 @@
+// The pressure solver's sums over neighbours. Sources: Bender & Koschier 2015; Ihmsen et al. 2014.
+
+/// Gradient of W at i.
+vec3 kernel_gradient(SphConstants c, vec3 d) {
+  precise const vec3 gradient = kernel_slope(squared_length(d), c.support, c.kernel_scale) * d;
+  return gradient;
+}

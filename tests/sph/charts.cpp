@@ -1,0 +1,380 @@
+#include <chrono>
+#include <functional>
+#include <map>
+
+#include "cpu_reference/sph/step.h"
+#include "gpu/sph/constants.h"
+#include "gpu/sph/step.h"
+#include "shaders.h"
+#include "tests/chart.h"
+#include "tests/sph/problems.h"
+
+/// Charts of particle fluids beyond their stages: accuracy, stability and cost of whole runs.
+namespace parity {
+namespace {
+
+ChartData hydrostatic(gpu::Context& context) {
+  SphProblem problem = sph_hydrostatic_column(2, 0.2, 1, 40);
+  problem.parameters.artificial_viscosity = 2;
+  const sph_test::Column column = sph_test::settle_column(context, problem);
+  Series measured{"layers of particles", {}};
+  Series theory{"weight above", {}, Series::Kind::theory};
+  for (std::size_t k = 0; k < column.depths.size(); ++k) {
+    measured.points.push_back({column.depths[k], column.pressures[k]});
+    theory.points.push_back({column.depths[k], 1000 * 9.81 * column.depths[k]});
+  }
+  return {
+      .series = {measured, theory},
+      .assertions = {{"RMS error of the layers, in pressures at the floor", column.error, 0.01}},
+      .settings = {{"column", "1 m, 40 particles high, 2D, Tait"}}};
+}
+
+const Registration hydrostatic_chart = register_chart({
+    .name = "sph/hydrostatic",
+    .title = "Pressure in a column of particles at rest",
+    .x = {.label = "depth", .unit = "m", .logarithmic = false},
+    .y = {.label = "pressure", .unit = "Pa", .logarithmic = false},
+    .produce = hydrostatic,
+});
+
+ChartData random_scenes(gpu::Context& context) {
+  Series adaptive{"adaptive step", {}};
+  double worst = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const double growth = sph_test::random_scene_growth(context, sph_random_scene(seed));
+    worst = std::max(worst, growth);
+    adaptive.points.push_back({double(seed), growth});
+  }
+  // The measure must be able to fail.
+  Series wild{"three times the stable step", {}};
+  double least = 1e30;
+  for (std::uint64_t seed = 0; seed < 100; seed += 20) {
+    SphProblem problem = sph_random_scene(seed);
+    problem.parameters.fixed_step = 3 * cpu::sph_stable_step(problem.parameters);
+    const double growth = sph_test::random_scene_growth(context, problem);
+    least = std::min(least, growth);
+    wild.points.push_back({double(seed), std::min(growth, 1e4)});
+  }
+  return {.series = {adaptive, wild},
+          .assertions = {{"largest energy of 100 scenes over what they had", worst, 1},
+                         {"smallest with three times the stable step", least, 1,
+                          Assertion::Relation::at_least}}};
+}
+
+const Registration random_chart = register_chart({
+    .name = "sph/random_scenes",
+    .title = "Kinetic energy in random scenes over all the energy that they begin with",
+    .x = {.label = "scene", .logarithmic = false},
+    .y = {.label = "energy / budget"},
+    .produce = random_scenes,
+});
+
+/// Average compression after each thirtieth of a dam break, and the seconds that a simulated second
+/// takes.
+Point run_dam_break(gpu::Context& context, const SphProblem& problem, const std::string& label) {
+  gpu::SphStep step(context, problem);
+  const auto start = std::chrono::steady_clock::now();
+  double error = 0;
+  constexpr int samples = 30;
+  for (int k = 1; k <= samples; ++k) {
+    gpu::advance(context, step, problem.duration * k / samples, 100000);
+    error += density_error(problem.parameters, step.densities().read()).average / samples;
+  }
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  return {seconds.count() / problem.duration, error, label};
+}
+
+ChartData methods(gpu::Context& context) {
+  Series weak{"weakly compressible, Tait", {}};
+  Series linear{"weakly compressible, linear", {}};
+  Series incompressible{"incompressible", {}};
+  const SphProblem dam = sph_dam_break(2, 0.1, 20);
+  for (const double factor : {0.5, 1.0, 2.0}) {
+    SphProblem problem = dam;
+    problem.parameters.sound_speed *= factor;
+    const std::string label = "c=" + short_number(10 * factor) + " v";
+    weak.points.push_back(run_dam_break(context, problem, label));
+    problem.parameters.equation_of_state = SphEquationOfState::linear;
+    linear.points.push_back(run_dam_break(context, problem, label));
+  }
+  double best = 1e30;
+  for (const double tolerance : {2e-3, 5e-4, 1e-4}) {
+    SphProblem problem = dam;
+    problem.parameters.method = SphMethod::divergence_free;
+    problem.parameters.density_error = tolerance;
+    problem.parameters.courant = 0.25;
+    problem.parameters.max_step = 2e-3;
+    problem.parameters.max_iterations = 40;
+    incompressible.points.push_back(
+        run_dam_break(context, problem, "eta=" + short_number(tolerance)));
+    best = std::min(best, incompressible.points.back().y);
+  }
+  return {.series = {weak, linear, incompressible},
+          .assertions = {{"average density error of the incompressible method", best, 1e-3}},
+          .settings = {{"scene", "dam break, 2D, 20 particles wide"}}};
+}
+
+const Registration methods_chart = register_chart({
+    .name = "sph/methods",
+    .title = "Density error of particle methods against their cost",
+    .x = {.label = "time per simulated second", .unit = "s"},
+    .y = {.label = "average compression"},
+    .produce = methods,
+    .pareto = true,
+});
+
+/// A cube of about `count` particles at rest in a corner of its tank.
+SphProblem cube_of(double count) {
+  return sph_dam_break(3, 1, int(std::lround(std::cbrt(count / 2))));
+}
+
+/// Device seconds by pass, the smallest of some steps.
+std::map<std::string, double> time_step(gpu::Context& context, gpu::SphStep& step, int repeats) {
+  std::map<std::string, double> best;
+  for (int k = 0; k < repeats; ++k) {
+    const gpu::Timing timing =
+        context.run([&](gpu::Commands& commands) { step.record(commands, 1e9); });
+    std::map<std::string, double> sums;
+    for (const auto& [name, seconds] : timing.passes) sums[name] += seconds;
+    sums["whole"] = timing.seconds;
+    for (const auto& [name, seconds] : sums)
+      best[name] = best.contains(name) ? std::min(best[name], seconds) : seconds;
+  }
+  return best;
+}
+
+ChartData scaling(gpu::Context& context) {
+  Series whole{"whole step", {}}, neighbours{"neighbours", {}}, forces{"forces", {}};
+  double bytes = 0;
+  for (const double count : {1e4, 3e4, 1e5, 3e5, 1e6}) {
+    const SphProblem problem = cube_of(count);
+    const double n = double(problem.initial.positions.size());
+    const std::uint64_t before = context.memory_bytes();
+    gpu::SphStep step(context, problem);
+    bytes = double(context.memory_bytes() - before) / n * 1e6;
+    const auto seconds = time_step(context, step, count < 2e5 ? 5 : 2);
+    whole.points.push_back({n, seconds.at("whole")});
+    neighbours.points.push_back({n, seconds.at("neighbours")});
+    forces.points.push_back({n, seconds.at("forces")});
+  }
+  const Point &first = whole.points.front(), &last = whole.points.back();
+  const double exponent = std::log(last.y / first.y) / std::log(last.x / first.x);
+  return {.series = {whole, neighbours, forces},
+          .assertions = {{"exponent of the cost of a step", exponent, 1.1},
+                         {"memory of a million particles, GiB", bytes / 0x1p30, 1}}};
+}
+
+const Registration scaling_chart = register_chart({
+    .name = "sph/scaling",
+    .title = "Cost of a weakly compressible step against particles",
+    .x = {.label = "particles"},
+    .y = {.label = "device time per step", .unit = "s"},
+    .produce = scaling,
+    .fit_slopes = true,
+});
+
+/// Cells of one support, x fastest, and the particles sorted by them.
+struct NativeCells {
+  ivec3 cells{0};
+  float support = 0;
+  std::vector<vec4> sorted;
+  std::vector<std::uint32_t> starts;
+  ivec3 cell_of(const vec4& p) const {
+    return glm::clamp(ivec3(vec3(p) / support) + 1, ivec3(0), cells - 1);
+  }
+  int index_of(const ivec3& c) const { return (c.z * cells.y + c.y) * cells.x + c.x; }
+};
+
+NativeCells sort_natively(const SphProblem& problem) {
+  NativeCells native;
+  native.support = float(problem.parameters.support);
+  native.cells = ivec3(vec3(problem.domain.high) / native.support) + 3;
+  for (const vec3& p : problem.initial.positions) native.sorted.emplace_back(p, 0.0f);
+  const auto key = [&](const vec4& p) { return native.index_of(native.cell_of(p)); };
+  std::ranges::stable_sort(native.sorted, {}, key);
+  native.starts.assign(std::size_t(native.cells.x) * native.cells.y * native.cells.z + 1, 0);
+  for (const vec4& p : native.sorted) ++native.starts[std::size_t(key(p)) + 1];
+  for (std::size_t c = 1; c < native.starts.size(); ++c) native.starts[c] += native.starts[c - 1];
+  return native;
+}
+
+/// Sum of the cubic spline's profile over the neighbours of each particle, on all threads; counts
+/// the candidates.
+std::vector<float> sum_natively(const NativeCells& native, double& candidates) {
+  const float reach = native.support * native.support;
+  std::vector<float> sums(native.sorted.size());
+  std::int64_t looked = 0;
+#pragma omp parallel for schedule(static) reduction(+ : looked)
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const vec4 p = native.sorted[i];
+    const ivec3 cell = native.cell_of(p);
+    float sum = 0;
+    for (int z = std::max(cell.z - 1, 0); z <= std::min(cell.z + 1, native.cells.z - 1); ++z)
+      for (int y = std::max(cell.y - 1, 0); y <= std::min(cell.y + 1, native.cells.y - 1); ++y) {
+        const int first = native.index_of({std::max(cell.x - 1, 0), y, z});
+        const int last = native.index_of({std::min(cell.x + 1, native.cells.x - 1), y, z});
+        const std::uint32_t end = native.starts[std::size_t(last) + 1];
+        for (std::uint32_t j = native.starts[std::size_t(first)]; j < end; ++j) {
+          const vec3 d = vec3(p) - vec3(native.sorted[j]);
+          const float r2 = glm::dot(d, d);
+          ++looked;
+          if (r2 >= reach) continue;
+          const float q = std::sqrt(r2) / native.support;
+          const float t = 1 - q;
+          sum += q < 0.5f ? 1 - 6 * q * q * t : 2 * t * t * t;
+        }
+      }
+    sums[i] = sum;
+  }
+  candidates = double(looked) / double(sums.size());
+  return sums;
+}
+
+/// Seconds of the best of five.
+double best_of_five(const std::function<void()>& work) {
+  double best = 1e30;
+  for (int k = 0; k < 5; ++k) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    best = std::min(best, seconds.count());
+  }
+  return best;
+}
+
+/// Device seconds that one access to memory takes: of a permutation's gather, which reads an index
+/// and a vec4 and writes a vec4 for each particle.
+double seconds_an_access(gpu::Context& context, const SphProblem& problem) {
+  const SphConstants constants = gpu::sph_constants(problem);
+  gpu::Neighbours neighbours(context, problem, constants);
+  std::vector<vec4> values(constants.count);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = vec4(problem.initial.positions[i], 0);
+  const gpu::Buffer<vec4> positions(context, values);
+  const gpu::Buffer<vec4> target(context, values.size());
+  const gpu::Kernel<GatherArgs> gather(context, gpu::shaders::sph_gather_comp);
+  context.run([&](gpu::Commands& commands) { neighbours.record(commands, positions); });
+  double best = 1e30;
+  for (int k = 0; k < 5; ++k) {
+    constexpr int repeats = 20;
+    const double seconds = context
+                               .run([&](gpu::Commands& commands) {
+                                 for (int r = 0; r < repeats; ++r)
+                                   commands.dispatch(gather, {constants.count},
+                                                     {.ids = neighbours.cells().ids(),
+                                                      .from = positions,
+                                                      .to = target,
+                                                      .count = constants.count});
+                               })
+                               .seconds;
+    best = std::min(best, seconds / repeats);
+  }
+  return best / (3.0 * constants.count);
+}
+
+/// 100,000 particles: the passes on the device beside a native density pass over the same cells,
+/// and the whole step beside the time that its accesses to memory take.
+ChartData cost_of_a_step(gpu::Context& context) {
+  const SphProblem problem = cube_of(1e5);
+  const double n = double(problem.initial.positions.size());
+  gpu::SphStep step(context, problem);
+  const auto seconds = time_step(context, step, 6);
+  const NativeCells native = sort_natively(problem);
+  double candidates = 0;
+  const double native_seconds = best_of_five([&] { sum_natively(native, candidates); });
+  double neighbours = 0;
+  for (const auto& list : cpu::sph_neighbours(problem).fluid) neighbours += double(list.size()) / n;
+  // Neighbours: candidates read, lists written. Density: index and place of each neighbour. Forces:
+  // index, place and motion. Sort: four passes that read a key twice and a value and write both.
+  const double accesses = candidates + neighbours * (1 + 2 + 3) + 4 * 5 + 20;
+  const double limit = n * accesses * seconds_an_access(context, problem);
+  const double density = seconds.at("neighbours") + seconds.at("density");
+  Series device{"device", {}}, beside{"native density, traffic", {}};
+  device.points = {{1, seconds.at("sort"), "sort"},
+                   {2, seconds.at("neighbours"), "neighbours"},
+                   {3, seconds.at("density"), "density"},
+                   {4, seconds.at("forces"), "forces"},
+                   {5, seconds.at("whole"), "whole"}};
+  beside.points = {{2, native_seconds, "native density"}, {5, limit, "traffic of the step"}};
+  return {.series = {device, beside},
+          .assertions = {{"neighbours and density on the device / native density",
+                          density / native_seconds, 2},
+                         {"whole step / its traffic", seconds.at("whole") / limit, 3}},
+          .settings = {{"particles", short_number(n)},
+                       {"candidates a particle", short_number(std::round(candidates))},
+                       {"neighbours a particle", short_number(std::round(neighbours))}}};
+}
+
+const Registration cost_chart = register_chart({
+    .name = "sph/step_cost",
+    .title = "Where a step of 100,000 particles spends its time",
+    .x = {.label = "pass: sort, neighbours, density, forces, whole", .logarithmic = false},
+    .y = {.label = "time", .unit = "s"},
+    .produce = cost_of_a_step,
+});
+
+constexpr int map_steps = 150;
+
+const Registration sound_map = register_map({
+    .name = "sph/stability_sound",
+    .title = "Speed after 150 steps of a box of particles over that at the start",
+    .x = {.name = "sound speed",
+          .unit = "m/s",
+          .low = 1,
+          .high = 100,
+          .standard = 10,
+          .logarithmic = true},
+    .y = {.name = "step",
+          .unit = "s",
+          .low = 1e-4,
+          .high = 1,
+          .standard = 1e-2,
+          .logarithmic = true},
+    .value_label = "growth of speed",
+    .border = 10,
+    .columns = 14,
+    .rows = 14,
+    .value =
+        [](gpu::Context& context, double sound, double step) {
+          SphProblem problem = sph_test::closed_box(8, sound, 0);
+          problem.parameters.fixed_step = step;
+          return sph_test::speed_growth(context, problem, map_steps);
+        },
+    .theory = {{"waves of the lattice: 2 / omega",
+                [](double sound) {
+                  return cpu::sph_stable_step(sph_test::closed_box(8, sound, 0).parameters);
+                }}},
+});
+
+const Registration viscosity_map = register_map({
+    .name = "sph/stability_viscosity",
+    .title = "Speed after 150 steps of a viscous box of particles over that at the start",
+    .x = {.name = "viscosity",
+          .unit = "m^2/s",
+          .low = 1e-3,
+          .high = 10,
+          .standard = 0.1,
+          .logarithmic = true},
+    .y = {.name = "step",
+          .unit = "s",
+          .low = 1e-4,
+          .high = 1,
+          .standard = 1e-2,
+          .logarithmic = true},
+    .value_label = "growth of speed",
+    .border = 10,
+    .columns = 14,
+    .rows = 14,
+    .value =
+        [](gpu::Context& context, double viscosity, double step) {
+          SphProblem problem = sph_test::closed_box(8, 10, viscosity);
+          problem.parameters.fixed_step = step;
+          return sph_test::speed_growth(context, problem, map_steps);
+        },
+    .theory = {{"2 g dt + (omega dt)^2 = 4",
+                [](double viscosity) {
+                  return cpu::sph_stable_step(sph_test::closed_box(8, 10, viscosity).parameters);
+                }}},
+});
+
+}  // namespace
+}  // namespace parity

@@ -1,0 +1,122 @@
+#include "gpu/sph/step.h"
+#include "tests/sph/problems.h"
+
+namespace parity::sph_test {
+namespace {
+
+/// Above its lowest possible height.
+double height_energy(const SphProblem& problem, const SphMeasures& measures) {
+  const SphParameters& p = problem.parameters;
+  double lowest = 0;
+  for (int k = 0; k < 3; ++k)
+    lowest -= measures.mass * std::max(p.gravity[k] * (problem.domain.low[k] - p.spacing),
+                                       p.gravity[k] * (problem.domain.high[k] + p.spacing));
+  return measures.potential_energy - lowest;
+}
+
+/// What lies in the compression of fluid and walls at the start: integral of p / rho^2 from rest.
+double compression_energy(gpu::Context& context, const SphProblem& problem) {
+  const SphParameters& p = problem.parameters;
+  double energy = 0;
+  for (const float density : gpu::sph_densities(context, problem)) {
+    const double end = std::max(double(density), p.rest_density);
+    const double middle = (end + p.rest_density) / 2;
+    const auto push = [&](double rho) { return cpu::sph_pressure(p, rho) / (rho * rho); };
+    energy += particle_mass(p) * (end - p.rest_density) / 6 * (4 * push(middle) + push(end));
+  }
+  return energy;
+}
+
+}  // namespace
+
+double random_scene_growth(gpu::Context& context, const SphProblem& problem) {
+  const SphParameters& p = problem.parameters;
+  const SphMeasures start = measure(p, problem.initial);
+  const double surface = p.surface_tension * p.support * p.support * start.mass;
+  // The walls' answer is no potential: they may give a tenth.
+  const double budget = 1.1 * (start.kinetic_energy + height_energy(problem, start) + surface +
+                               compression_energy(context, problem));
+  gpu::SphStep step(context, problem);
+  double worst = 0;
+  try {
+    for (int k = 1; k <= 4; ++k) {
+      gpu::advance(context, step, problem.duration * k / 4, 20000);
+      const double energy = measure(p, step.read()).kinetic_energy;
+      if (!std::isfinite(energy)) return 1e30;
+      worst = std::max(worst, energy / budget);
+    }
+  } catch (const gpu::Error&) {
+    return 1e30;
+  }
+  return worst;
+}
+
+Column settle_column(gpu::Context& context, const SphProblem& problem) {
+  const SphParameters& p = problem.parameters;
+  const double height = measure(p, problem.initial).high.y + p.spacing / 2;
+  const double floor_pressure = -p.rest_density * p.gravity.y * height;
+  const auto layers = std::size_t(std::lround(height / p.spacing));
+  const double period = 4 * height / p.sound_speed;
+  constexpr int samples = 12;
+  std::vector<double> count(layers);
+  Column column{std::vector<double>(layers), std::vector<double>(layers)};
+  gpu::SphStep step(context, problem);
+  for (int k = 1; k <= samples; ++k) {
+    gpu::advance(context, step, (3 + double(k) / samples) * period, 1000000);
+    const SphState state = step.read();
+    const std::vector<float> pressures = step.pressures().read();
+    for (std::size_t i = 0; i < pressures.size(); ++i) {
+      const double y = state.positions[i].y;
+      const auto layer = std::min(layers - 1, std::size_t(std::max(0.0, y / p.spacing)));
+      column.pressures[layer] += pressures[i];
+      column.depths[layer] += height - y;
+      count[layer] += 1;
+    }
+  }
+  for (std::size_t k = 0; k < layers; ++k) {
+    column.pressures[k] /= count[k];
+    column.depths[k] /= count[k];
+    const double want = floor_pressure * column.depths[k] / height;
+    column.error += std::pow((column.pressures[k] - want) / floor_pressure, 2);
+  }
+  column.error = std::sqrt(column.error / double(layers));
+  return column;
+}
+
+SphProblem closed_box(int across, double sound_speed, double viscosity) {
+  SphProblem problem;
+  SphParameters& p = problem.parameters;
+  p.dimensions = 2;
+  p.spacing = 1.0 / across;
+  p.support = 2 * p.spacing;
+  p.equation_of_state = SphEquationOfState::linear;
+  p.sound_speed = sound_speed;
+  p.viscosity = viscosity;
+  p.artificial_viscosity = 0;
+  p.gravity = dvec3(0);
+  // Half a per cent less room each way.
+  const double spacing = 0.995 * p.spacing;
+  problem.domain = {dvec3(0), dvec3(spacing * across, spacing * across, 0)};
+  problem.initial.positions = fill_box(problem.domain, spacing, 2);
+  problem.boundary = cover_box(problem.domain, spacing, 2, true, false);
+  problem.domain.high += dvec3(p.spacing, p.spacing, 0);
+  Random random{1};
+  for (std::size_t i = 0; i < problem.initial.positions.size(); ++i) {
+    vec3 velocity = random.in_box(float(1e-4 * sound_speed));
+    velocity.z = 0;
+    problem.initial.velocities.push_back(velocity);
+  }
+  return problem;
+}
+
+double speed_growth(gpu::Context& context, const SphProblem& problem, int steps) {
+  gpu::SphStep step(context, problem);
+  context.run([&](gpu::Commands& commands) {
+    for (int k = 0; k < steps; ++k) step.record(commands, 1e9);
+  });
+  const double growth = measure(problem.parameters, step.read()).max_speed /
+                        measure(problem.parameters, problem.initial).max_speed;
+  return std::isfinite(growth) ? std::min(growth, 1e30) : 1e30;
+}
+
+}  // namespace parity::sph_test
