@@ -8,6 +8,9 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
+/// Cells along x to a support.
+constexpr double x_cells = 4;
+
 /// The kernel's profile, 1 at q = 0 and 0 at q = 1.
 double profile(SphKernel kernel, double q) {
   const double t = 1 - q;
@@ -83,8 +86,9 @@ SphGrid grid_of(const SphProblem& problem) {
   const dvec3 margin{p.support, p.support, solid ? p.support : 0};
   const dvec3 sides = (problem.domain.high - problem.domain.low + 2.0 * margin) / p.support;
   grid.low = vec3(problem.domain.low - margin);
-  grid.inverse_cell = float(1 / p.support);
-  grid.cells = uvec3(glm::ceil(sides));
+  grid.inverse_cell = vec3(dvec3(x_cells, 1, 1) / p.support);
+  grid.cells = uvec3(glm::ceil(sides * dvec3(x_cells, 1, 1)));
+  grid.support = float(p.support);
   if (!solid) {
     grid.low.z = 0;
     grid.cells.z = 1;

@@ -18,7 +18,7 @@ void main() {
   precise float sum = 0.0;
   for (int dz = -reach_z; dz <= reach_z; ++dz) {
     for (int dy = -1; dy <= 1; ++dy) {
-      const uvec2 range = row_range(c.grid, args.starts, cell, dy, dz);
+      const uvec2 range = row_range(c.grid, args.starts, p, cell, dy, dz);
       for (uint j = range.x; j < range.y; ++j) {
         precise const vec3 d = p - args.boundary.at[j].xyz;
         sum += kernel_value(squared_length(d), c.support, c.kernel_scale);

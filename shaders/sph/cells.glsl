@@ -1,7 +1,7 @@
-// Cells of a grid as wide as the support, so that all neighbours lie in the 3 x 3 x 3 around a
-// point; three in a row along x are one range of the sorted particles. Points outside count to the
-// nearest cell, which keeps neighbours neighbours. Source: Green 2010, "Particle Simulation using
-// CUDA".
+// Cells of a grid whose rows along x are as wide as the support, so that all neighbours lie in the
+// 3 x 3 rows around a point; of each row, the cells within the support are one range of the sorted
+// particles. Points outside count to the nearest cell, which keeps neighbours neighbours. Source:
+// Green 2010, "Particle Simulation using CUDA", with shorter cells along x.
 
 ivec3 cell_of(SphGrid grid, vec3 p) {
   precise const vec3 at = floor((p - grid.low) * grid.inverse_cell);
@@ -14,13 +14,29 @@ uint cell_index(SphGrid grid, ivec3 cell) {
   return (uint(cell.z) * grid.cells.y + uint(cell.y)) * grid.cells.x + uint(cell.x);
 }
 
-/// Begin and end among the sorted particles of the row of up to three cells around `cell` that is
-/// (dy, dz) away; empty beyond the grid.
-uvec2 row_range(SphGrid grid, ref_uint starts, ivec3 cell, int dy, int dz) {
+/// How far a point is at least from a row `step` away; 0 for the outermost rows, whose points may lie
+/// anywhere beyond. `along`: the point's coordinate in cells.
+float row_distance(float along, int cell, int step, uint cells) {
+  const int row = cell + step;
+  if (step == 0 || row <= 0 || row >= int(cells) - 1) return 0.0;
+  const float apart = step < 0 ? along - float(cell) : float(cell + 1) - along;
+  return max(apart, 0.0);
+}
+
+/// Begin and end among the sorted particles of the part of a row that may be within the support; the
+/// row is (dy, dz) away from the point's cell. Empty beyond the grid. A thousandth of the support is
+/// added against rounding.
+uvec2 row_range(SphGrid grid, ref_uint starts, vec3 p, ivec3 cell, int dy, int dz) {
   const int y = cell.y + dy;
   const int z = cell.z + dz;
   if (y < 0 || z < 0 || y >= int(grid.cells.y) || z >= int(grid.cells.z)) return uvec2(0u);
-  const uint first = cell_index(grid, ivec3(max(cell.x - 1, 0), y, z));
-  const uint last = cell_index(grid, ivec3(min(cell.x + 1, int(grid.cells.x) - 1), y, z));
+  const vec3 at = (p - grid.low) * grid.inverse_cell;
+  const float a = row_distance(at.y, cell.y, dy, grid.cells.y);
+  const float b = row_distance(at.z, cell.z, dz, grid.cells.z);
+  const float square = 1.002 - a * a - b * b;
+  if (!(square > 0.0)) return uvec2(0u);
+  const vec3 reach = vec3((sqrt(square) + 0.001) * grid.support, 0.0, 0.0);
+  const uint first = cell_index(grid, ivec3(cell_of(grid, p - reach).x, y, z));
+  const uint last = cell_index(grid, ivec3(cell_of(grid, p + reach).x, y, z));
   return uvec2(starts.at[first], starts.at[last + 1u]);
 }

@@ -8,12 +8,13 @@
 namespace parity {
 #endif
 
-/// A grid of cells of one support radius, x fastest.
+/// A grid of cells, x fastest: as wide as the support along y and z, a quarter of it along x.
 struct SphGrid {
   vec3 low;
-  float inverse_cell;  ///< 1/m
+  vec3 inverse_cell;  ///< 1/m
   uvec3 cells;
-  uint reach_z;  ///< cells to look at on either side along z: 0 in 2 dimensions
+  float support;
+  uint reach_z;  ///< rows to look at on either side along z: 0 in 2 dimensions
 };
 REF_TYPE(SphGrid, 4)
 

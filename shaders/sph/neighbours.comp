@@ -21,7 +21,7 @@ void main() {
   uint found = 0u;
   for (int dz = -reach_z; dz <= reach_z; ++dz) {
     for (int dy = -1; dy <= 1; ++dy) {
-      const uvec2 range = row_range(grid, args.starts, cell, dy, dz);
+      const uvec2 range = row_range(grid, args.starts, p, cell, dy, dz);
       for (uint j = range.x; j < range.y; ++j) {
         precise const vec3 d = p - args.positions.at[j].xyz;
         if (squared_length(d) < reach && j != i) {
@@ -35,7 +35,7 @@ void main() {
   if (args.constants.at[0].boundary_count > 0u) {
     for (int dz = -reach_z; dz <= reach_z; ++dz) {
       for (int dy = -1; dy <= 1; ++dy) {
-        const uvec2 range = row_range(grid, args.boundary_starts, cell, dy, dz);
+        const uvec2 range = row_range(grid, args.boundary_starts, p, cell, dy, dz);
         for (uint j = range.x; j < range.y; ++j) {
           precise const vec3 d = p - args.boundary.at[j].xyz;
           if (squared_length(d) < reach) {
