@@ -5,9 +5,9 @@
 
 namespace parity::gpu {
 
-Densities::Densities(Context& context, const SphProblem& problem, const SphConstants& constants)
+Densities::Densities(Context& context, const SphConstants& constants)
     : count_(constants.count),
-      density_(context, shaders::sph_density_comp, {{0, std::uint32_t(problem.parameters.kernel)}}),
+      density_(context, shaders::sph_density_comp),
       places_(context, constants.count),
       motions_(context, constants.count) {}
 
@@ -19,9 +19,7 @@ void Densities::record(Commands& commands, const Neighbours& neighbours,
                      .positions = neighbours.cells().sorted(),
                      .velocities = velocities,
                      .ids = neighbours.cells().ids(),
-                     .boundary = neighbours.boundary(),
-                     .lists = neighbours.lists(),
-                     .counts = neighbours.counts(),
+                     .densities = neighbours.densities(),
                      .places = places_,
                      .motions = motions_,
                      .count = count_});
@@ -30,7 +28,7 @@ void Densities::record(Commands& commands, const Neighbours& neighbours,
 std::vector<float> sph_densities(Context& context, const SphProblem& problem) {
   const SphConstants constants = sph_constants(problem);
   Neighbours neighbours(context, problem, constants);
-  Densities densities(context, problem, constants);
+  Densities densities(context, constants);
   const Buffer<vec4> positions(context, with_zero(problem.initial.positions));
   const Buffer<vec4> velocities(context, with_zero(problem.initial.velocities));
   context.run([&](Commands& commands) {

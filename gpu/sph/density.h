@@ -6,12 +6,13 @@
 
 namespace parity::gpu {
 
-/// Densities of particles, and their pressure by the equation of state.
+/// Places with densities, and velocities with pressures by the equation of state: what the passes
+/// after it read. The sums over neighbours are made where neighbours are found.
 ///
 /// Source: notes 10.4; Akinci et al. 2012 (walls); Monaghan 1994 (Tait).
 class Densities {
  public:
-  Densities(Context& context, const SphProblem& problem, const SphConstants& constants);
+  Densities(Context& context, const SphConstants& constants);
 
   /// @param velocities  by id.
   void record(Commands& commands, const Neighbours& neighbours, BufferRef<vec4> velocities);

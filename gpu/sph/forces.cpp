@@ -26,7 +26,7 @@ void Forces::record(Commands& commands, const Neighbours& neighbours, const Dens
 std::vector<vec3> sph_accelerations(Context& context, const SphProblem& problem) {
   const SphConstants constants = sph_constants(problem);
   Neighbours neighbours(context, problem, constants);
-  Densities densities(context, problem, constants);
+  Densities densities(context, constants);
   Forces forces(context, problem, constants);
   const Buffer<vec4> positions(context, with_zero(problem.initial.positions));
   const Buffer<vec4> velocities(context, with_zero(problem.initial.velocities));

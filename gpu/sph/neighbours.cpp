@@ -68,7 +68,8 @@ Neighbours::Neighbours(Context& context, const SphProblem& problem, const SphCon
                   kernel_of(std::uint32_t(problem.parameters.kernel))),
       boundary_(context, constants.boundary_count),
       lists_(context, std::size_t(constants.count) * constants.capacity),
-      counts_(context, constants.count) {
+      counts_(context, constants.count),
+      densities_(context, constants.count) {
   weigh_boundary(context, problem.boundary, std::uint32_t(problem.parameters.kernel));
 }
 
@@ -103,6 +104,7 @@ void Neighbours::record(Commands& commands, BufferRef<vec4> positions) {
                      .boundary_starts = boundary_cells_.starts(),
                      .lists = lists_,
                      .counts = counts_,
+                     .densities = densities_,
                      .count = count_});
 }
 

@@ -39,7 +39,8 @@ class CellSort {
   Buffer<vec4> sorted_;
 };
 
-/// Lists, of each particle, the particles of the fluid and of the walls within the support.
+/// Lists, of each particle, the particles of the fluid and of the walls within the support,
+/// and its density, which is a sum over them.
 ///
 /// Source: Green 2010, "Particle Simulation using CUDA".
 class Neighbours {
@@ -56,6 +57,8 @@ class Neighbours {
   const CellSort& boundary_cells() const { return boundary_cells_; }
   const Buffer<std::uint32_t>& lists() const { return lists_; }
   const Buffer<uvec2>& counts() const { return counts_; }
+  /// Sorted, kg/m^3.
+  const Buffer<float>& densities() const { return densities_; }
 
  private:
   void weigh_boundary(Context& context, const std::vector<vec3>& boundary, std::uint32_t kernel);
@@ -68,6 +71,7 @@ class Neighbours {
   Buffer<vec4> boundary_;
   Buffer<std::uint32_t> lists_;
   Buffer<uvec2> counts_;
+  Buffer<float> densities_;
 };
 
 /// Mathematics: cpu::sph_neighbours; the decision, r^2 < H^2 in float, is the same.

@@ -80,7 +80,7 @@ void PressureSolver::record_round(Commands& commands, const SolveArgs& args) {
 std::vector<vec3> sph_incompressible_velocities(Context& context, const SphProblem& problem) {
   const SphConstants constants = sph_constants(problem);
   Neighbours neighbours(context, problem, constants);
-  Densities densities(context, problem, constants);
+  Densities densities(context, constants);
   Forces forces(context, problem, constants);
   PressureSolver solver(context, problem, constants);
   const Buffer<vec4> positions(context, with_zero(problem.initial.positions));

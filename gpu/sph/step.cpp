@@ -30,7 +30,7 @@ SphStep::SphStep(Context& context, const SphProblem& problem)
     : count_(std::uint32_t(problem.initial.positions.size())),
       blocks_((count_ + block - 1) / block),
       neighbours_(context, problem, sph_constants(problem)),
-      densities_(context, problem, sph_constants(problem)),
+      densities_(context, sph_constants(problem)),
       forces_(context, problem, sph_constants(problem)),
       limits_(context, shaders::sph_limits_comp),
       clock_(context, shaders::sph_clock_comp),

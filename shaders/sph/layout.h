@@ -102,7 +102,8 @@ struct NeighbourArgs {
   REF(vec4) boundary;  ///< sorted
   REF(uint) boundary_starts;
   REF(uint) lists;
-  REF(uvec2) counts;  ///< of fluid neighbours; of all that there are, even those not in the list
+  REF(uvec2) counts;     ///< of fluid neighbours; of all that there are, even those not in the list
+  REF(float) densities;  ///< sorted
   uint count;
   uint padding;
 };
@@ -121,11 +122,9 @@ struct DensityArgs {
   REF(vec4) positions;   ///< sorted
   REF(vec4) velocities;  ///< of the particles by id
   REF(uint) ids;
-  REF(vec4) boundary;
-  REF(uint) lists;
-  REF(uvec2) counts;
-  REF(vec4) places;   ///< sorted; w: density
-  REF(vec4) motions;  ///< sorted velocities; w: p / rho^2
+  REF(float) densities;  ///< sorted
+  REF(vec4) places;      ///< sorted; w: density
+  REF(vec4) motions;     ///< sorted velocities; w: p / rho^2
   uint count;
   uint padding;
 };
@@ -182,9 +181,9 @@ struct SolveBeginArgs {
   REF(vec4) boundary;
   REF(uint) lists;
   REF(uvec2) counts;
-  REF(float) pressures;   ///< by id, Pa
-  REF(float) impulses;    ///< sorted: step times p / rho^2
-  REF(vec4) predicted;    ///< velocities without pressure; w: 1 / diagonal
+  REF(float) pressures;  ///< by id, Pa
+  REF(float) impulses;   ///< sorted: step times p / rho^2
+  REF(vec4) predicted;   ///< velocities without pressure; w: 1 / diagonal
   REF(SphSolver) solver;
   uint count;
   uint padding;
@@ -199,7 +198,7 @@ struct SolveArgs {
   REF(uvec2) counts;
   REF(vec4) predicted;
   REF(float) impulses;
-  REF(vec4) moved;   ///< velocities with pressure; w: predicted compression
+  REF(vec4) moved;  ///< velocities with pressure; w: predicted compression
   REF(SphSolver) solver;
   uint count;
   uint padding;

@@ -3,8 +3,9 @@
 #include "sph/cells.glsl"
 #include "sph/kernel.glsl"
 
-// Lists the particles and the wall particles closer than the support, in sorted order; one thread a
-// particle. Counts go on beyond the lists' capacity. Source: Green 2010.
+// Lists the particles and the wall particles closer than the support, in sorted order, and sums the
+// density over them, as long as they are at hand; one thread a particle. Counts go on beyond the
+// lists' capacity. Sources: Green 2010; notes 10.4; Akinci et al. 2012.
 layout(local_size_x = 64) in;
 layout(scalar, push_constant) uniform Push { NeighbourArgs args; };
 
@@ -18,13 +19,18 @@ void main() {
   const vec3 p = args.positions.at[i].xyz;
   const ivec3 cell = cell_of(grid, p);
   const int reach_z = int(grid.reach_z);
+  const float scale = args.constants.at[0].kernel_scale;
   uint found = 0u;
+  precise float sum = 0.0;
+  precise float walls = 0.0;
   for (int dz = -reach_z; dz <= reach_z; ++dz) {
     for (int dy = -1; dy <= 1; ++dy) {
       const uvec2 range = row_range(grid, args.starts, p, cell, dy, dz);
       for (uint j = range.x; j < range.y; ++j) {
         precise const vec3 d = p - args.positions.at[j].xyz;
-        if (squared_length(d) < reach && j != i) {
+        const float r2 = squared_length(d);
+        sum += kernel_value(r2, support, scale);
+        if (r2 < reach && j != i) {
           if (found < capacity) args.lists.at[found * args.count + i] = j;
           ++found;
         }
@@ -37,8 +43,11 @@ void main() {
       for (int dy = -1; dy <= 1; ++dy) {
         const uvec2 range = row_range(grid, args.boundary_starts, p, cell, dy, dz);
         for (uint j = range.x; j < range.y; ++j) {
-          precise const vec3 d = p - args.boundary.at[j].xyz;
-          if (squared_length(d) < reach) {
+          const vec4 wall = args.boundary.at[j];
+          precise const vec3 d = p - wall.xyz;
+          const float r2 = squared_length(d);
+          walls += wall.w * kernel_value(r2, support, scale);
+          if (r2 < reach) {
             if (found < capacity) args.lists.at[found * args.count + i] = j;
             ++found;
           }
@@ -47,4 +56,6 @@ void main() {
     }
   }
   args.counts.at[i] = uvec2(fluid, found);
+  precise const float density = args.constants.at[0].mass * sum + walls;
+  args.densities.at[i] = density;
 }

@@ -283,9 +283,9 @@ ChartData cost_of_a_step(gpu::Context& context) {
   const double native_seconds = best_of_five([&] { sum_natively(native, candidates); });
   double neighbours = 0;
   for (const auto& list : cpu::sph_neighbours(problem).fluid) neighbours += double(list.size()) / n;
-  // Neighbours: candidates read, lists written. Density: index and place of each neighbour. Forces:
-  // index, place and motion. Sort: four passes that read a key twice and a value and write both.
-  const double accesses = candidates + neighbours * (1 + 2 + 3) + 4 * 5 + 20;
+  // Neighbours: candidates read, lists written. Forces: index, place and motion of each neighbour.
+  // Sort: four passes that read a key twice and a value and write both. A score of others.
+  const double accesses = candidates + neighbours * (1 + 3) + 4 * 5 + 20;
   const double limit = n * accesses * seconds_an_access(context, problem);
   const double density = seconds.at("neighbours") + seconds.at("density");
   Series device{"device", {}}, beside{"native density, traffic", {}};
