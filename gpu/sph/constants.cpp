@@ -114,6 +114,7 @@ SphConstants sph_constants(const SphProblem& problem) {
   c.grid = grid_of(problem);
   c.gravity = vec3(p.gravity);
   c.support = float(p.support);
+  c.inverse_support = float(1 / p.support);
   c.kernel_scale = float(scale);
   c.mass = float(particle_mass(p));
   c.rest_density = float(p.rest_density);

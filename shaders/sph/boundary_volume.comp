@@ -21,7 +21,7 @@ void main() {
       const uvec2 range = row_range(c.grid, args.starts, p, cell, dy, dz);
       for (uint j = range.x; j < range.y; ++j) {
         precise const vec3 d = p - args.boundary.at[j].xyz;
-        sum += kernel_value(squared_length(d), c.support, c.kernel_scale);
+        sum += kernel_value(squared_length(d), c.inverse_support, c.kernel_scale);
       }
     }
   }

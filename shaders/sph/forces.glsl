@@ -17,11 +17,11 @@ vec3 fluid_acceleration(SphConstants c, vec4 place_i, vec4 motion_i, vec4 place_
   precise const vec3 d = place_i.xyz - place_j.xyz;
   precise const vec3 dv = motion_i.xyz - motion_j.xyz;
   precise const float r2 = squared_length(d);
-  precise const float slope = kernel_slope(r2, c.support, c.kernel_scale);
+  precise const float slope = kernel_slope(r2, c.inverse_support, c.kernel_scale);
   precise const float pressure = c.mass * (motion_i.w + motion_j.w);
   precise const float weight = 2.0 * c.mass / (place_i.w + place_j.w);
   precise float along = (viscous_factor(c, d, dv, r2, weight) - pressure) * slope;
-  if (c.tension != 0.0) along -= c.tension * kernel_value(r2, c.support, c.kernel_scale);
+  if (c.tension != 0.0) along -= c.tension * kernel_value(r2, c.inverse_support, c.kernel_scale);
   precise const vec3 result = along * d;
   return result;
 }
@@ -31,7 +31,7 @@ vec3 fluid_acceleration(SphConstants c, vec4 place_i, vec4 motion_i, vec4 place_
 vec3 wall_acceleration(SphConstants c, vec4 place, vec4 motion, vec4 wall) {
   precise const vec3 d = place.xyz - wall.xyz;
   precise const float r2 = squared_length(d);
-  precise const float slope = kernel_slope(r2, c.support, c.kernel_scale);
+  precise const float slope = kernel_slope(r2, c.inverse_support, c.kernel_scale);
   precise const float carried = max(motion.w - inner_product(c.gravity, d) / place.w, 0.0);
   const float answer = c.stiff != 0u ? carried : 0.0;
   precise const float viscous = viscous_factor(c, d, motion.xyz, r2, wall.w / place.w);

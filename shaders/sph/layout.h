@@ -23,6 +23,7 @@ struct SphConstants {
   SphGrid grid;
   vec3 gravity;
   float support;
+  float inverse_support;  ///< 1/m
   float kernel_scale;  ///< W(0) of the kernel if its polynomial is 1 there
   float mass;
   float rest_density;

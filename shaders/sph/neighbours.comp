@@ -19,6 +19,7 @@ void main() {
   const vec3 p = args.positions.at[i].xyz;
   const ivec3 cell = cell_of(grid, p);
   const int reach_z = int(grid.reach_z);
+  const float inverse_support = args.constants.at[0].inverse_support;
   const float scale = args.constants.at[0].kernel_scale;
   uint found = 0u;
   precise float sum = 0.0;
@@ -29,7 +30,7 @@ void main() {
       for (uint j = range.x; j < range.y; ++j) {
         precise const vec3 d = p - args.positions.at[j].xyz;
         const float r2 = squared_length(d);
-        sum += kernel_value(r2, support, scale);
+        sum += kernel_value(r2, inverse_support, scale);
         if (r2 < reach && j != i) {
           if (found < capacity) args.lists.at[found * args.count + i] = j;
           ++found;
@@ -46,7 +47,7 @@ void main() {
           const vec4 wall = args.boundary.at[j];
           precise const vec3 d = p - wall.xyz;
           const float r2 = squared_length(d);
-          walls += wall.w * kernel_value(r2, support, scale);
+          walls += wall.w * kernel_value(r2, inverse_support, scale);
           if (r2 < reach) {
             if (found < capacity) args.lists.at[found * args.count + i] = j;
             ++found;

@@ -2,6 +2,6 @@
 
 /// Gradient of W at i.
 vec3 kernel_gradient(SphConstants c, vec3 d) {
-  precise const vec3 gradient = kernel_slope(squared_length(d), c.support, c.kernel_scale) * d;
+  precise const vec3 gradient = kernel_slope(squared_length(d), c.inverse_support, c.kernel_scale) * d;
   return gradient;
 }
