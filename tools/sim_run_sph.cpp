@@ -135,6 +135,9 @@ std::string save_state(const SphState& state) {
   writer.value(state.time);
   writer.list(state.positions);
   writer.list(state.velocities);
+  std::vector<float> pressures = state.pressures;
+  pressures.resize(state.positions.size());
+  writer.list(pressures);
   return writer.take();
 }
 
@@ -145,6 +148,7 @@ SphState restore_state(std::string_view bytes, std::size_t count) {
   if (!(state.time >= 0 && state.time < 1e9)) throw std::runtime_error("has a wrong time");
   state.positions = reader.list<vec3>(count, "positions");
   state.velocities = reader.list<vec3>(count, "velocities");
+  state.pressures = reader.list<float>(count, "pressures");
   if (!reader.is_at_end()) throw std::runtime_error("goes on after its end");
   return state;
 }

@@ -69,7 +69,7 @@ SphState SphStep::read() const {
   state.time = report().time;
   for (const vec4& p : positions_.read()) state.positions.emplace_back(p);
   for (const vec4& v : velocities_.read()) state.velocities.emplace_back(v);
-  if (solver_) state.pressures = pressures_.read();
+  state.pressures = pressures_.read();
   return state;
 }
 
