@@ -194,7 +194,7 @@ DrawnLight night_light(const SimScene& scene) {
   light.ground_color = {0.10f, 0.10f, 0.12f};
   light.horizon = {0.055f, 0.065f, 0.085f};
   light.zenith = {0.015f, 0.02f, 0.035f};
-  light.floor_color = {0.16f, 0.165f, 0.18f};
+  light.floor_color = {0.08f, 0.083f, 0.09f};
   light.medium = vec3(0.92f);
   light.forward_scatter = 0.2f;
   return light;
