@@ -48,13 +48,16 @@ struct Node {
 enum class Wrap { repeat, mirrored_repeat, clamp_to_edge, clamp_to_border };  ///< border: 0
 enum class Filter { nearest, linear };
 
+/// What the program gives to textures: files do not say how anisotropic a sampler is.
+constexpr int default_max_anisotropy = 8;
+
 struct Sampler {
   Wrap wrap_u = Wrap::repeat;
   Wrap wrap_v = Wrap::repeat;
   Filter mag = Filter::linear;
   Filter min = Filter::linear;
   std::optional<Filter> mip = Filter::linear;  ///< none: level 0 only
-  int max_anisotropy = 1;  ///< 1 to 16: how long a footprint is followed; if min and mip are linear
+  int max_anisotropy = 1;  ///< 1 to 16: how long a footprint is followed; if all filters are linear
 };
 
 struct Texture {

@@ -1,11 +1,25 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <vector>
 
-#include "cpu_reference/texture/sample.h"
+#include "cpu_reference/texture/anisotropic.h"
+#include "cpu_reference/texture/answers.h"
+#include "cpu_reference/texture/environment.h"
 #include "cpu_reference/texture/mip_pyramid.h"
+#include "cpu_reference/texture/procedural.h"
+#include "cpu_reference/texture/projection.h"
+#include "cpu_reference/texture/sample.h"
+#include "cpu_reference/texture/surface_detail.h"
+#include "cpu_reference/texture/texel.h"
+#include "gpu/texture/displacement.h"
+#include "gpu/texture/sample.h"
+#include "tests/gpu_context.h"
+#include "tests/texture/errata_texture.h"
+#include "tests/texture/textures.h"
 
 namespace parity {
 namespace {
@@ -121,6 +135,261 @@ TEST(CpuTexture, SurvivesCoordinatesThatAreNotFinite) {
       EXPECT_TRUE(std::isfinite(cpu::sample({levels, false, {}}, {bad, bad}, bad).value.x));
     }
   EXPECT_FALSE(std::isnan(cpu::level_of_detail({std::nan(""), 0}, {0, 0}, 4, 4)));
+}
+
+/// The device's level of detail, as a texture of levels tells it. 8-bit codes of 16 a level.
+double device_level(dvec2 dx, dvec2 dy, int width, int height) {
+  std::vector<Grid<u8vec4>> levels;
+  for (int k = 0; std::max(width, height) >> k > 0; ++k)
+    levels.emplace_back(std::max(1, width >> k), std::max(1, height >> k),
+                        u8vec4(u8vec4::value_type(16 * k)));
+  const TextureFootprint f[] = {{{0.3f, 0.3f}, vec2(dx), vec2(dy)}};
+  return gpu::sample(test_context(), {levels, false, {}}, f, 0.5f)[0].x * 255.0 / 16;
+}
+
+TEST(TextureErrata, LevelOfDetailCountsTexelsInBothDirections) {
+  EXPECT_TRUE(measures_texels_a_pixel(cpu::level_of_detail));
+  EXPECT_TRUE(measures_texels_a_pixel(device_level));
+  EXPECT_FALSE(measures_texels_a_pixel([](dvec2 dx, dvec2, int, int) {
+    return std::log2(std::max(std::abs(dx.x), std::abs(dx.y)));  // notes 6.3
+  }));
+  EXPECT_FALSE(measures_texels_a_pixel([](dvec2 dx, dvec2 dy, int width, int height) {
+    const dvec2 x = glm::abs(dx * dvec2(width, height)), y = glm::abs(dy * dvec2(width, height));
+    return std::log2(std::max({x.x, x.y, y.x, y.y}));  // with size and y, but not turned
+  }));
+}
+
+TEST(TextureErrata, TexelsHaveTheirValueInTheirMiddle) {
+  const auto row_of = [](const std::vector<double>& texels) {
+    Grid<u8vec4> image{int(texels.size()), 1};
+    for (std::size_t i = 0; i < texels.size(); ++i) image(int(i), 0).x = std::uint8_t(texels[i]);
+    return image;
+  };
+  EXPECT_TRUE(reads_a_ramp_as_a_ramp([&](const std::vector<double>& texels, double u) {
+    const std::vector<Grid<u8vec4>> levels{row_of(texels)};
+    return 255 * cpu::sample({levels, false, {.wrap_u = Wrap::clamp_to_edge}}, {u, 0.5}, 0).value.x;
+  }));
+  EXPECT_FALSE(reads_a_ramp_as_a_ramp([](const std::vector<double>& texels, double u) {
+    const double place = u * double(texels.size());  // notes 6.3: no half
+    const auto i = std::min(std::size_t(place), texels.size() - 1);
+    const double share = place - double(i);
+    return (1 - share) * texels[i] + share * texels[std::min(i + 1, texels.size() - 1)];
+  }));
+}
+
+TEST(TextureErrata, OddLevelsKeepTheMean) {
+  EXPECT_TRUE(keeps_the_mean([](const std::vector<double>& row) {
+    Grid<u8vec4> image{int(row.size()), 1};
+    for (std::size_t i = 0; i < row.size(); ++i) image(int(i), 0).x = std::uint8_t(row[i]);
+    std::vector<double> half;
+    const std::vector<Grid<dvec4>> means = cpu::mip_means(image, false);
+    for (const dvec4& mean : means[1]) half.push_back(mean.x);
+    return half;
+  }));
+  EXPECT_FALSE(keeps_the_mean([](const std::vector<double>& row) {
+    std::vector<double> half;
+    for (std::size_t i = 0; i + 1 < row.size(); i += 2) half.push_back((row[i] + row[i + 1]) / 2);
+    return half;
+  }));
+}
+
+TEST(TextureErrata, TheLastPlaceHasATexel) {
+  EXPECT_TRUE(finds_a_texel_everywhere([](double u, int size) {
+    return *cpu::wrap_texel(std::int64_t(std::floor(u * size)), size, Wrap::clamp_to_edge);
+  }));
+  EXPECT_FALSE(finds_a_texel_everywhere(
+      [](double u, int size) { return int(std::floor(u * size)); }));  // notes 6.3
+}
+
+TEST(SamplerAnswers, RejectAShiftedTexture) {
+  Random random{5};
+  const std::vector<Grid<u8vec4>> levels{texture_test::random_image(16, 16, random)};
+  const MippedTexture t{levels, false, {.mip = {}}};
+  const cpu::SamplerPrecision precision{.texel_weight = 0x1p-8};
+  const dvec2 uv{0.31, 0.62};
+  const auto answers = cpu::sample_answers(t, uv, {-1, -1}, precision);
+  EXPECT_EQ(cpu::distance_to(answers, cpu::sample(t, uv, -1).value), 0);
+  EXPECT_LT(cpu::distance_to(answers, cpu::sample(t, uv + 0.5 / 256 / 16, -1).value), 1e-12);
+  EXPECT_GT(cpu::distance_to(answers, cpu::sample(t, uv + 0.5 / 16, -1).value), 0.01);
+}
+
+TEST(MipPyramid, KeepsTheMeanOfAnOddImage) {
+  Grid<u8vec4> image{5, 3};
+  for (int i = 0; i < 15; ++i)
+    image.values()[std::size_t(i)] = u8vec4(i * 17, 255 - i * 17, i % 2 * 255, 255);
+  double mean = 0;
+  for (const u8vec4& t : image) mean += t.x / 15.0;
+  const auto means = cpu::mip_means(image, false);
+  ASSERT_EQ(means.size(), 3u);  // 5x3, 2x1, 1x1
+  EXPECT_EQ(means[1].width(), 2);
+  EXPECT_EQ(means[1].height(), 1);
+  EXPECT_NEAR(means[2](0, 0).x, mean, 1e-12);
+}
+
+TEST(MipPyramid, AveragesInLinearLight) {
+  Grid<u8vec4> image{2, 1};
+  image(1, 0) = u8vec4(255);
+  EXPECT_EQ(cpu::mip_pyramid(image, true)[1](0, 0).x, 188);  // sRGB code of linear 0.5
+  EXPECT_EQ(cpu::mip_pyramid(image, false)[1](0, 0).x, 128);
+  EXPECT_THROW(cpu::mip_pyramid({}, true), std::invalid_argument);
+}
+
+TEST(Anisotropic, AxesAreThoseOfTheEllipse) {
+  const cpu::FootprintAxes turned = cpu::footprint_axes({0.3, 0.4}, {-0.08, 0.06}, 10, 10);
+  EXPECT_NEAR(turned.major, 5, 1e-12);
+  EXPECT_NEAR(turned.minor, 1, 1e-12);
+  EXPECT_NEAR(std::abs(glm::dot(turned.direction, dvec2(0.6, 0.8))), 1, 1e-12);
+  // A shear: singular values of [[1, 1], [0, 1]] are the golden ratio and its inverse.
+  const cpu::FootprintAxes sheared = cpu::footprint_axes({1, 0}, {1, 1}, 1, 1);
+  EXPECT_NEAR(sheared.major, (1 + std::sqrt(5.0)) / 2, 1e-12);
+  EXPECT_NEAR(sheared.minor, (std::sqrt(5.0) - 1) / 2, 1e-12);
+}
+
+std::vector<Grid<u8vec4>> random_pyramid() {
+  Random random{9};
+  return cpu::mip_pyramid(texture_test::random_image(64, 64, random), false);
+}
+
+TEST(Anisotropic, KeepsAConstantAndIsContinuous) {
+  const std::vector<Grid<u8vec4>> flat = cpu::mip_pyramid(Grid<u8vec4>{64, 64, u8vec4(77)}, false);
+  const std::vector<Grid<u8vec4>> noise = random_pyramid();
+  for (double size = 0.5; size < 40; size *= 1.01) {
+    const cpu::Footprint f{{0.3, 0.4}, dvec2(6, 2) * size / 640.0, dvec2(-1, 2) * size / 640.0};
+    cpu::Footprint next = f;
+    next.dx *= 1 + 1e-7;
+    next.dy *= 1 + 1e-7;
+    const auto at = [&](const auto& levels, const cpu::Footprint& footprint) {
+      return cpu::sample({levels, false, {.max_anisotropy = 8}}, footprint).value.x;
+    };
+    EXPECT_NEAR(at(flat, f), 77 / 255.0, 1e-12);
+    // Level weights change by 4 a level, 1e-7 / ln 2 levels; ellipses by 2e-7 of up to 40 texels.
+    EXPECT_NEAR(at(noise, f), at(noise, next), 2e-5) << size;
+  }
+}
+
+TEST(Anisotropic, IsSharperThanTrilinearAlongTheShortAxis) {
+  // Stripes of two texels along x; the footprint is 16 long in x and 1 wide in y.
+  Grid<u8vec4> stripes{64, 64};
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) stripes(x, y) = u8vec4(y / 4 % 2 == 0 ? 255 : 0);
+  const auto levels = cpu::mip_pyramid(stripes, false);
+  const cpu::Footprint f{{0.5, 2.0 / 64}, {16.0 / 64, 0}, {0, 1.0 / 64}};
+  const double truth = cpu::elliptical_weighted_average({levels, false, {}}, f).x;
+  EXPECT_GT(truth, 0.99);
+  EXPECT_NEAR(cpu::sample({levels, false, {.max_anisotropy = 16}}, f).value.x, truth, 0.03);
+  EXPECT_NEAR(cpu::sample({levels, false, {}}, f).value.x, 0.5, 0.01);
+}
+
+TEST(PerlinNoise, IsThePublishedFunction) {
+  EXPECT_NEAR(cpu::procedural(Procedural::perlin, {3.14, 42, 7}), 0.13691995878400012, 1e-15);
+  for (const dvec3 p : {dvec3(0, 0, 0), dvec3(-3, 200, 17), dvec3(5, -6, 300)})
+    EXPECT_EQ(cpu::procedural(Procedural::perlin, p), 0);
+}
+
+TEST(Projection, RoundTripsDirections) {
+  Random random{2};
+  for (int i = 0; i < 200; ++i) {
+    const dvec3 d = glm::normalize(dvec3(random.direction()));
+    for (const Projection kind : {Projection::spherical, Projection::cubic}) {
+      const cpu::TexturePoint place = cpu::project(kind, d * 3.0);
+      EXPECT_LT(glm::distance(cpu::direction_of(kind, place), d), 1e-14);
+      EXPECT_TRUE(place.uv.x >= 0 && place.uv.x <= 1 && place.uv.y >= 0 && place.uv.y <= 1);
+    }
+  }
+  EXPECT_LT(glm::distance(cpu::project(Projection::spherical, {0, 0, -1}).uv, dvec2(0.5)), 1e-15);
+  EXPECT_EQ(cpu::project(Projection::cubic, {0, 1, 0}).face, 2);
+  EXPECT_LT(glm::distance(cpu::triplanar_weights({0, 2, 0}), dvec3(0, 1, 0)), 1e-15);
+}
+
+TEST(Environment, HasNoSeams) {
+  Random random{4};
+  Grid<vec4> faces{8, 48}, picture{16, 8};
+  for (vec4& t : faces) t = vec4(random.uniform());
+  for (vec4& t : picture) t = vec4(random.uniform());
+  const double step = 1e-9;  // of a slope of up to 16 texels a unit
+  for (int i = 0; i < 400; ++i) {
+    dvec3 d = glm::normalize(dvec3(random.direction()));
+    if (i % 2 == 0) d.x = -d.z;  // on a cube's edge
+    if (i % 2 == 1) d.x = 0;     // on the meridian where the picture's sides meet, or over a pole
+    if (i % 4 == 3) d = {0, d.y > 0 ? 1 : -1, 0};
+    const dvec3 aside{step, 0, step / 2};
+    const auto across = [&](const auto& of, const auto& texels) {
+      return std::abs(of(texels, d + aside).x - of(texels, d - aside).x);
+    };
+    EXPECT_LT(across(cpu::sample_cube_map, faces), 100 * step) << i;
+    EXPECT_LT(across(cpu::sample_equirectangular, picture), 1e4 * step) << i;
+  }
+}
+
+TEST(SurfaceDetail, FlatMapsChangeNothingAndSlopesTilt) {
+  SurfaceDetail d{};
+  d.normal = {0, 0, 2};
+  d.tangent = {3, 0, 0, -1};
+  d.p_u = {2, 0, 0};
+  d.p_v = {1, 1, 0};
+  d.texel = {0.5f, 0.5f, 1};
+  d.scale = 1;
+  EXPECT_LT(glm::distance(cpu::bump(d), dvec3(0, 0, 1)), 1e-15);
+  EXPECT_LT(glm::distance(cpu::normal_map(d), dvec3(0, 0, 1)), 1e-15);
+  d.slope = {2, 1};  // h = x
+  EXPECT_LT(glm::distance(cpu::bump(d), glm::normalize(dvec3(-1, 0, 1))), 1e-15);
+  d.texel = {0.5f, 1, 0.5f};  // along the bitangent, which the handedness turns
+  EXPECT_LT(glm::distance(cpu::normal_map(d), dvec3(0, -1, 0)), 1e-15);
+}
+
+TEST(Parallax, MeetsAFlatFieldWhereGeometrySays) {
+  const Grid<u8vec4> field{4, 4, u8vec4(51)};  // depth 0.8
+  const cpu::ParallaxHit hit = cpu::parallax(field, {0.3, 0.4}, {0.6, 0, 0.8}, 0.1, 16);
+  const double step = 1 / 16.0 / 256;
+  EXPECT_NEAR(hit.depth, 0.8, step);
+  EXPECT_NEAR(hit.uv.x, 0.3 - 0.8 * 0.1 * 0.75, 0.075 * step);
+  EXPECT_EQ(cpu::parallax(field, {0.3, 0.4}, {0, 0, 1}, 0.1, 16).uv.x, 0.3);
+}
+
+/// A square of 3x3 squares in x and z, displaced along y; seen so that factors differ.
+DisplacementProblem rough_square() {
+  Random random{8};
+  DisplacementProblem p;
+  p.heights = texture_test::random_image(8, 8, random);
+  p.scale = 0.3f;
+  p.size = {400, 400};
+  p.max_pixels = 8;
+  const auto corner = [](int x, int y) {
+    const vec2 uv = vec2(x, y) / 3.0f;
+    return DisplacementCorner{{uv.x, 0, uv.y}, {0, 1, 0}, uv};
+  };
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 3; ++x)
+      for (const ivec2 c :
+           {ivec2(0, 0), ivec2(1, 0), ivec2(1, 1), ivec2(0, 0), ivec2(1, 1), ivec2(0, 1)})
+        p.corners.push_back(corner(x + c.x, y + c.y));
+  p.clip_from_world = mat4(0.0f);  // x and y over 0.2 + 2 z
+  p.clip_from_world[0][0] = p.clip_from_world[1][1] = 1;
+  p.clip_from_world[2][3] = 2;
+  p.clip_from_world[3][3] = 0.2f;
+  return p;
+}
+
+TEST(Displacement, LeavesNoCracks) {
+  const DisplacedMesh mesh = gpu::displace(test_context(), rough_square());
+  std::set<std::uint32_t> factors;
+  for (const uvec4& f : mesh.factors) factors.insert({f.x, f.y, f.z});
+  EXPECT_GT(factors.size(), 2u) << "the test needs edges that differ";
+  using Key = std::array<float, 6>;
+  std::multiset<Key> edges;
+  const auto key = [](const vec3& a, const vec3& b) { return Key{a.x, a.y, a.z, b.x, b.y, b.z}; };
+  for (std::size_t i = 0; i < mesh.corners.size(); i += 3)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const vec3 a = mesh.corners[i + k], b = mesh.corners[i + (k + 1) % 3];
+      if (a != b) edges.insert(key(a, b));
+    }
+  for (const Key& e : edges) {
+    const bool on_border =
+        (e[0] == e[3] && (e[0] == 0 || e[0] == 1)) || (e[2] == e[5] && (e[2] == 0 || e[2] == 1));
+    if (on_border) continue;
+    EXPECT_EQ(edges.count(e), edges.count(Key{e[3], e[4], e[5], e[0], e[1], e[2]}))
+        << e[0] << " " << e[2] << " to " << e[3] << " " << e[5];
+  }
 }
 
 }  // namespace

@@ -220,7 +220,8 @@ int render(const RenderArguments& arguments) {
                        .background = parse_background(arguments.background),
                        .environment = parse_environment(arguments.environment)};
   const double start = seconds_now();
-  const Scene scene = load_scene(arguments.input);
+  Scene scene = load_scene(arguments.input);
+  for (Texture& texture : scene.textures) texture.sampler.max_anisotropy = default_max_anisotropy;
   const double load_seconds = seconds_now() - start;
   if (!arguments.quiet)
     for (const std::string& note : scene.notes)

@@ -203,7 +203,7 @@ ShadingPoint<double> shading_point(const ElementSurface& s, int x, int y, bool b
     const MippedTexture& texture = (*s.textures)[slot];
     if (texture.levels.empty()) continue;
     const TexturePlace place = texture_place(s, slot, b);
-    set_texture_inputs(point.inputs, slot, sample(texture, place.uv, place.lambda).value);
+    set_texture_inputs(point.inputs, slot, sample(texture, place.footprint()).value);
   }
   return point;
 }
@@ -223,7 +223,7 @@ double alpha_at(const ElementSurface& s, int x, int y) {
   const MippedTexture& texture = (*s.textures)[slot_base_color];
   if (texture.levels.empty()) return alpha;
   const TexturePlace place = texture_place(s, slot_base_color, b);
-  return alpha * sample(texture, place.uv, place.lambda).value.w;
+  return alpha * sample(texture, place.footprint()).value.w;
 }
 
 }  // namespace parity::cpu

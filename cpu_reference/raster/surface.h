@@ -9,7 +9,7 @@
 #include "cpu_reference/raster/elements.h"
 #include "cpu_reference/raster/planes.h"
 #include "cpu_reference/shading/metallic_roughness.h"
-#include "cpu_reference/texture/sample.h"
+#include "cpu_reference/texture/anisotropic.h"
 
 namespace parity::cpu {
 
@@ -92,6 +92,7 @@ struct TexturePlace {
   dvec2 uv_dx{0.0};
   dvec2 uv_dy{0.0};
   double lambda = 0;
+  Footprint footprint() const { return {uv, uv_dx, uv_dy}; }
 };
 TexturePlace texture_place(const ElementSurface& s, std::size_t slot, const QuadBarycentrics& b);
 

@@ -64,6 +64,8 @@ Inputs varying_errors(const PlacedDraw& placed, std::uint32_t element, const Ele
 struct TextureDoubt {
   TexturePlace place;
   dvec2 uv_error{0.0};
+  dvec2 dx_error{0.0};
+  dvec2 dy_error{0.0};
   double lambda_low = 0;
   double lambda_high = 0;
 };
@@ -87,12 +89,11 @@ dvec2 spread(const mat3& m, dvec2 e) {
 }
 
 /// Interval of the level of detail from the errors of the derivatives.
-void bound_lambda(TextureDoubt& doubt, dvec2 size, dvec2 dx_error, dvec2 dy_error,
-                  const DeviceLimits& limits) {
+void bound_lambda(TextureDoubt& doubt, dvec2 size, const DeviceLimits& limits) {
   const double across = glm::length(doubt.place.uv_dx * size);
   const double down = glm::length(doubt.place.uv_dy * size);
-  const double across_error = glm::length(dx_error * size);
-  const double down_error = glm::length(dy_error * size);
+  const double across_error = glm::length(doubt.dx_error * size);
+  const double down_error = glm::length(doubt.dy_error * size);
   const double least = std::max({across - across_error, down - down_error, 0.0});
   const double most = std::max(across + across_error, down + down_error);
   const double rounding = 0x1p-21 + 6 * half_ulp * std::abs(doubt.place.lambda);
@@ -127,8 +128,9 @@ TextureDoubt texture_doubt(const PlacedDraw& placed, std::uint32_t element, cons
   const Grid<u8vec4>& image = (*s.textures)[slot].levels[0];
   const dvec2 size{double(image.width()), double(image.height())};
   const dvec2 twice = magnitude * (8 * half_ulp);
-  bound_lambda(doubt, size, spread(use.texture_from_uv, dx) + twice,
-               spread(use.texture_from_uv, dy) + twice, limits);
+  doubt.dx_error = spread(use.texture_from_uv, dx) + twice;
+  doubt.dy_error = spread(use.texture_from_uv, dy) + twice;
+  bound_lambda(doubt, size, limits);
   return doubt;
 }
 
@@ -159,11 +161,49 @@ dvec2 texel_size(const MippedTexture& t, double lambda) {
   return {1.0 / image.width(), 1.0 / image.height()};
 }
 
+/// What the anisotropic filter of shaders may answer: continuous in place and derivatives, whose
+/// own errors are joined by that of float arithmetic on the ellipse, as if each derivative were off
+/// by 2^-19 of the longer one.
+BoundedLookup average_over_ellipse(const ElementSurface& surface, std::size_t slot,
+                                   const TextureDoubt& doubt) {
+  const MippedTexture& texture = (*surface.textures)[slot];
+  const Footprint here = doubt.place.footprint();
+  BoundedLookup result;
+  result.value = sample(texture, here).value;
+  const dvec2 size{double(texture.levels[0].width()), double(texture.levels[0].height())};
+  const dvec2 rounding =
+      0x1p-19 * std::max(glm::length(here.dx * size), glm::length(here.dy * size)) / size;
+  const auto move = [&](dvec2 Footprint::*part, dvec2 error) {
+    for (int axis = 0; axis < 2; ++axis) {
+      Footprint up = here, down = here;
+      (up.*part)[axis] += error[axis];
+      (down.*part)[axis] -= error[axis];
+      result.bound += glm::max(glm::abs(sample(texture, up).value - result.value),
+                               glm::abs(sample(texture, down).value - result.value));
+    }
+  };
+  move(&Footprint::uv, doubt.uv_error);
+  move(&Footprint::dx, doubt.dx_error + rounding);
+  move(&Footprint::dy, doubt.dy_error + rounding);
+  for (const MaterialTextures* rounded : {surface.textures_less, surface.textures_more})
+    result.bound += glm::abs(sample((*rounded)[slot], here).value - result.value);
+  // Two running sums over the texels, each product of a weight and a decoded texel; the quotient.
+  const int texels = texels_read(texture, here, anisotropic_level_bias);
+  result.bound += glm::abs(result.value) * ((2 * texels + 16) * half_ulp);
+  return result;
+}
+
 BoundedLookup lookup(const ElementSurface& surface, std::size_t slot, const TextureDoubt& doubt,
                      const DeviceLimits& limits) {
   const MippedTexture& texture = (*surface.textures)[slot];
   const dvec2 uv = doubt.place.uv;
   const double lambda = doubt.place.lambda;
+  if (is_anisotropic(texture.sampler)) {
+    BoundedLookup result = average_over_ellipse(surface, slot, doubt);
+    for (int c = 0; c < 3 && texture.srgb; ++c)
+      result.bound[c] += decode_error(result.value[c], limits);
+    return result;
+  }
   const TextureLookup center = sample(texture, uv, lambda);
   BoundedLookup result;
   result.value = center.value;

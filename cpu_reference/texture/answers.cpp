@@ -51,9 +51,10 @@ std::vector<ColorBox> nearest(const MippedTexture& t, dvec2 uv, int level,
   const Grid<u8vec4>& image = t.levels[std::size_t(level)];
   const Span u = coordinate(uv.x, image.width(), 0, p.coordinate);
   const Span v = coordinate(uv.y, image.height(), 0, p.coordinate);
+  const double e = p.texel_weight;
   std::vector<ColorBox> boxes;
-  for (double y = std::floor(v.low); y <= std::floor(v.high); ++y)
-    for (double x = std::floor(u.low); x <= std::floor(u.high); ++x)
+  for (double y = std::floor(v.low - e); y <= std::floor(v.high + e); ++y)
+    for (double x = std::floor(u.low - e); x <= std::floor(u.high + e); ++x)
       boxes.push_back(texel_box(t, level, std::int64_t(x), std::int64_t(y), p));
   return boxes;
 }
@@ -162,6 +163,24 @@ std::vector<ColorBox> sample_answers(const MippedTexture& t, dvec2 uv, LevelRang
     append(boxes, *s.mip == Filter::nearest ? nearest_levels(t, uv, lambda, p)
                                             : mixed_levels(t, uv, lambda, p));
   return boxes;
+}
+
+dvec4 moved_by(const MippedTexture& t, const Footprint& f, dvec2 place_error,
+               double derivative_error) {
+  const dvec4 here = sample(t, f).value;
+  const dvec2 size{double(t.levels[0].width()), double(t.levels[0].height())};
+  const dvec2 derivative =
+      derivative_error * std::max(glm::length(f.dx * size), glm::length(f.dy * size)) / size;
+  dvec4 sum{0.0};
+  for (dvec2 Footprint::*part : {&Footprint::uv, &Footprint::dx, &Footprint::dy})
+    for (int axis = 0; axis < 2; ++axis) {
+      const double step = (part == &Footprint::uv ? place_error : derivative)[axis];
+      Footprint up = f, down = f;
+      (up.*part)[axis] += step;
+      (down.*part)[axis] -= step;
+      sum += glm::max(glm::abs(sample(t, up).value - here), glm::abs(sample(t, down).value - here));
+    }
+  return sum;
 }
 
 double distance_to(const std::vector<ColorBox>& answers, dvec4 color) {

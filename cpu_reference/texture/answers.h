@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "cpu_reference/texture/anisotropic.h"
 #include "geometry/math.h"
 #include "geometry/texture.h"
 
@@ -10,7 +11,7 @@ namespace parity::cpu {
 /// How far a sampler may be from exact arithmetic. All errors are to both sides.
 struct SamplerPrecision {
   double coordinate = 0;    ///< of u times the width, relative to 1 + |u| width
-  double texel_weight = 0;  ///< of the weights within a level: 2^-subTexelPrecisionBits
+  double texel_weight = 0;  ///< of places and weights, in texels: 2^-subTexelPrecisionBits
   double level_weight = 0;  ///< of the weight between levels: 2^-mipmapPrecisionBits
   double srgb_decode = 0;   ///< of decoding, in codes of 8 bits
 };
@@ -43,6 +44,14 @@ LevelRange allowed_levels(dvec2 uv_dx, dvec2 uv_dy, int width, int height, int b
 /// conformance 1.3.
 std::vector<ColorBox> sample_answers(const MippedTexture& texture, dvec2 uv, LevelRange lambda,
                                      const SamplerPrecision& precision);
+
+/// How far the answer over a footprint is moved when its place and derivatives are, each by its
+/// error to both sides, the larger changes of all six added up.
+///
+/// @param place_error       texture lengths.
+/// @param derivative_error  in texels, relative to the longer derivative.
+dvec4 moved_by(const MippedTexture& texture, const Footprint& footprint, dvec2 place_error,
+               double derivative_error);
 
 /// How far a colour is from the nearest box, in its worst channel; 0 inside of one.
 double distance_to(const std::vector<ColorBox>& answers, dvec4 color);

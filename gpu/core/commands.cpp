@@ -60,17 +60,17 @@ VkBufferImageCopy whole_level(const Image& image, const RawBuffer& buffer, int l
   return region;
 }
 
-VkDescriptorImageInfo image_info(const RawKernel::State& kernel, const ContextState& context,
+VkDescriptorImageInfo image_info(const std::string& shader, const ContextState& context,
                                  const ShaderReflection::Descriptor& descriptor,
                                  std::span<const ImageBinding> images) {
   const auto index = static_cast<std::size_t>(descriptor.binding);
   require(index < images.size() && images[index].image != nullptr,
-          kernel.name + ": no image for binding " + std::to_string(descriptor.binding));
+          shader + ": no image for binding " + std::to_string(descriptor.binding));
   const ImageBinding& bound = images[index];
   const Image::State& image = *bound.image->state();
   const bool sampled = descriptor.kind == ShaderReflection::Descriptor::Kind::sampled_image;
   const VkImageUsageFlags use = sampled ? VK_IMAGE_USAGE_SAMPLED_BIT : VK_IMAGE_USAGE_STORAGE_BIT;
-  require((image.usage & use) != 0, kernel.name + ": the image at binding " +
+  require((image.usage & use) != 0, shader + ": the image at binding " +
                                         std::to_string(descriptor.binding) + " cannot be " +
                                         (sampled ? "sampled" : "stored to"));
   VkDescriptorImageInfo info{};
@@ -80,20 +80,28 @@ VkDescriptorImageInfo image_info(const RawKernel::State& kernel, const ContextSt
         bound.sampler != nullptr ? bound.sampler->state()->sampler.get() : context.nearest->get();
     info.imageView = image.view.get();
   } else {
-    check_level(*bound.image, bound.level, kernel.name.c_str());
+    check_level(*bound.image, bound.level, shader.c_str());
     info.imageView = image.levels[static_cast<std::size_t>(bound.level)].get();
   }
   return info;
 }
 
-void bind_images(const Commands::State& state, const RawKernel::State& kernel,
+/// A pipeline's images and where it takes them from.
+struct ImageSlots {
+  ShaderImages images;
+  VkDescriptorSetLayout set_layout;
+  VkPipelineLayout layout;
+  VkPipelineBindPoint point;
+};
+
+void bind_images(ContextState& context, VkCommandBuffer commands, const ImageSlots& slots,
                  std::span<const ImageBinding> images) {
-  if (!kernel.set_layout) return;
-  const std::vector<ShaderReflection::Descriptor>& descriptors = kernel.reflection.descriptors;
+  const std::vector<ShaderReflection::Descriptor>& descriptors = slots.images.descriptors;
+  if (descriptors.empty()) return;
   std::vector<VkDescriptorImageInfo> infos;
   for (const ShaderReflection::Descriptor& each : descriptors)
-    infos.push_back(image_info(kernel, state.context, each, images));
-  const VkDescriptorSet set = state.context.submission->allocate_set(kernel.set_layout.get());
+    infos.push_back(image_info(slots.images.name, context, each, images));
+  const VkDescriptorSet set = context.submission->allocate_set(slots.set_layout);
   std::vector<VkWriteDescriptorSet> writes;
   for (std::size_t i = 0; i < descriptors.size(); ++i) {
     VkWriteDescriptorSet write{};
@@ -107,10 +115,9 @@ void bind_images(const Commands::State& state, const RawKernel::State& kernel,
     write.pImageInfo = &infos[i];
     writes.push_back(write);
   }
-  vkUpdateDescriptorSets(state.context.link().device, static_cast<std::uint32_t>(writes.size()),
+  vkUpdateDescriptorSets(context.link().device, static_cast<std::uint32_t>(writes.size()),
                          writes.data(), 0, nullptr);
-  vkCmdBindDescriptorSets(state.commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout.get(), 0, 1,
-                          &set, 0, nullptr);
+  vkCmdBindDescriptorSets(commands, slots.point, slots.layout, 0, 1, &set, 0, nullptr);
 }
 
 void bind_kernel(const Commands::State& state, const RawKernel::State& kernel, const void* args) {
@@ -185,6 +192,12 @@ void bind_raster(RenderPass::State& pass, const RawRasterPipeline::State& pipeli
   // it.
   vkCmdSetFrontFace(pass.commands,
                     mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
+  bind_images(pass.context, pass.commands,
+              {{pipeline.name, pipeline.descriptors},
+               pipeline.set_layout.get(),
+               pipeline.layout.get(),
+               VK_PIPELINE_BIND_POINT_GRAPHICS},
+              pass.images);
   if (pipeline.args_bytes > 0)
     vkCmdPushConstants(pass.commands, pipeline.layout.get(),
                        VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
@@ -229,7 +242,12 @@ void Commands::dispatch_raw(const RawKernel& kernel, Threads threads, const void
                 std::to_string(limits.maxComputeWorkGroupCount[axis]));
   }
   begin_command(state_);
-  bind_images(state_, state, images);
+  bind_images(state_.context, state_.commands,
+              {{state.name, state.reflection.descriptors},
+               state.set_layout.get(),
+               state.layout.get(),
+               VK_PIPELINE_BIND_POINT_COMPUTE},
+              images);
   bind_kernel(state_, state, args);
   vkCmdDispatch(state_.commands, groups[0], groups[1], groups[2]);
 }
@@ -249,7 +267,7 @@ void Commands::render(const RenderTargets& targets,
                       const std::function<void(RenderPass&)>& record) {
   const ImageOptions* size = nullptr;
   std::vector<VkRenderingAttachmentInfo> colors;
-  RenderPass::State pass{.commands = state_.commands, .colors = {}, .depth = {}, .culling = {}};
+  RenderPass::State pass{.context = state_.context, .commands = state_.commands};
   for (const ColorTarget& target : targets.colors) {
     check_target(target.image, size);
     colors.push_back(color_attachment(target));
@@ -284,6 +302,10 @@ void Commands::render(const RenderTargets& targets,
   record(render_pass);
   state_.rendering = false;
   vkCmdEndRendering(state_.commands);
+}
+
+void RenderPass::bind(std::span<const ImageBinding> images) {
+  state_.images.assign(images.begin(), images.end());
 }
 
 void RenderPass::set_culling(Culling culling, bool mirrored) {

@@ -61,6 +61,8 @@ class RenderPass {
     draw_raw(pipeline.raw(), &args, sizeof(Args), vertex_count, instance_count, first_vertex,
              first_instance);
   }
+  /// Images that the fragment shaders of the draws that follow read, by binding.
+  void bind(std::span<const ImageBinding> images);
   /// One indexed draw after another. gl_InstanceIndex counts from first_instance.
   template <typename Args>
   void draw_indexed(const RasterPipeline<Args>& pipeline, const Args& args,

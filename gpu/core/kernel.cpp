@@ -35,30 +35,6 @@ void check_workgroup(const ContextState& context, const RawKernel::State& state)
                     std::to_string(limits.maxComputeWorkGroupInvocations) + " invocations");
 }
 
-OwnedSetLayout make_set_layout(const ContextState& context, const RawKernel::State& state) {
-  std::vector<VkDescriptorSetLayoutBinding> bindings;
-  for (const ShaderReflection::Descriptor& each : state.reflection.descriptors) {
-    if (each.set != 0)
-      throw Error(
-          ErrorKind::invalid_shader,
-          state.name + ": images must be in set 0, one is in set " + std::to_string(each.set));
-    VkDescriptorSetLayoutBinding binding{};
-    binding.binding = static_cast<std::uint32_t>(each.binding);
-    binding.descriptorType = each.kind == ShaderReflection::Descriptor::Kind::sampled_image
-                                 ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
-                                 : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-    binding.descriptorCount = 1;
-    binding.stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
-    bindings.push_back(binding);
-  }
-  VkDescriptorSetLayoutCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-  info.bindingCount = static_cast<std::uint32_t>(bindings.size());
-  info.pBindings = bindings.data();
-  return create<OwnedSetLayout>(context.link(), vkCreateDescriptorSetLayout, info,
-                                "vkCreateDescriptorSetLayout");
-}
-
 OwnedPipelineLayout make_layout(const ContextState& context, const RawKernel::State& state) {
   const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, state.args_bytes};
   const VkDescriptorSetLayout set = state.set_layout.get();
@@ -80,6 +56,31 @@ OwnedShader make_shader(ContextState& context, const ShaderCode& code) {
   info.codeSize = code.words.size_bytes();
   info.pCode = code.words.data();
   return create<OwnedShader>(context.link(), vkCreateShaderModule, info, "vkCreateShaderModule");
+}
+
+OwnedSetLayout make_set_layout(const ContextState& context, const ShaderImages& images,
+                               VkShaderStageFlags stage) {
+  std::vector<VkDescriptorSetLayoutBinding> bindings;
+  for (const ShaderReflection::Descriptor& each : images.descriptors) {
+    if (each.set != 0)
+      throw Error(
+          ErrorKind::invalid_shader,
+          images.name + ": images must be in set 0, one is in set " + std::to_string(each.set));
+    VkDescriptorSetLayoutBinding binding{};
+    binding.binding = static_cast<std::uint32_t>(each.binding);
+    binding.descriptorType = each.kind == ShaderReflection::Descriptor::Kind::sampled_image
+                                 ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+                                 : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    binding.descriptorCount = 1;
+    binding.stageFlags = stage;
+    bindings.push_back(binding);
+  }
+  VkDescriptorSetLayoutCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+  info.bindingCount = static_cast<std::uint32_t>(bindings.size());
+  info.pBindings = bindings.data();
+  return create<OwnedSetLayout>(context.link(), vkCreateDescriptorSetLayout, info,
+                                "vkCreateDescriptorSetLayout");
 }
 
 SpecializationData::SpecializationData(const std::vector<Specialization>& specializations) {
@@ -123,7 +124,9 @@ std::shared_ptr<const RawKernel::State> build(ContextState& shared, const Shader
   for (int axis = 0; axis < 3; ++axis)
     state.local_size[axis] = local_size(state.reflection, axis, specializations);
   check_workgroup(shared, state);
-  if (!state.reflection.descriptors.empty()) state.set_layout = make_set_layout(shared, state);
+  if (!state.reflection.descriptors.empty())
+    state.set_layout = make_set_layout(shared, {state.name, state.reflection.descriptors},
+                                       VK_SHADER_STAGE_COMPUTE_BIT);
   state.layout = make_layout(shared, state);
 
   const OwnedShader shader = make_shader(shared, code);

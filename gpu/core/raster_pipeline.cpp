@@ -90,12 +90,16 @@ void check_options(const ContextState& context, const RasterOptions& options) {
                 "device " + context.info.name + " lacks bresenhamLines");
 }
 
-OwnedPipelineLayout make_layout(const ContextState& context, std::uint32_t args_bytes) {
+OwnedPipelineLayout make_layout(const ContextState& context,
+                                const RawRasterPipeline::State& state) {
   const VkPushConstantRange range{VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
-                                  args_bytes};
+                                  state.args_bytes};
+  const VkDescriptorSetLayout set = state.set_layout.get();
   VkPipelineLayoutCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-  info.pushConstantRangeCount = args_bytes > 0 ? 1 : 0;
+  info.setLayoutCount = state.set_layout ? 1 : 0;
+  info.pSetLayouts = &set;
+  info.pushConstantRangeCount = state.args_bytes > 0 ? 1 : 0;
   info.pPushConstantRanges = &range;
   return create<OwnedPipelineLayout>(context.link(), vkCreatePipelineLayout, info,
                                      "vkCreatePipelineLayout");
@@ -197,16 +201,20 @@ std::shared_ptr<const RawRasterPipeline::State> build(ContextState& shared,
   check_options(shared, options);
   for (const ShaderCode* code : {&vertex, &fragment}) {
     const ShaderReflection reflection = reflect(*code);
-    if (!reflection.descriptors.empty())
+    if (!reflection.descriptors.empty() && code == &vertex)
       throw Error(ErrorKind::invalid_shader,
-                  std::string(code->name) + ": vertex and fragment shaders have no images");
+                  std::string(code->name) + ": vertex shaders have no images");
+    state.descriptors = reflection.descriptors;
     // A stage may leave the arguments to the other.
     if (reflection.push_constant_bytes == 0) continue;
     check_args(shared, code->name, reflection.push_constant_bytes, args_bytes);
     state.args_bytes = reflection.push_constant_bytes;
   }
   if (state.args_bytes == 0) check_args(shared, state.name.c_str(), 0, args_bytes);
-  state.layout = make_layout(shared, state.args_bytes);
+  if (!state.descriptors.empty())
+    state.set_layout =
+        make_set_layout(shared, {state.name, state.descriptors}, VK_SHADER_STAGE_FRAGMENT_BIT);
+  state.layout = make_layout(shared, state);
 
   const OwnedShader vertex_shader = make_shader(shared, vertex);
   const OwnedShader fragment_shader = make_shader(shared, fragment);

@@ -230,6 +230,16 @@ struct ImageSampler::State {
 
 OwnedShader make_shader(ContextState& context, const ShaderCode& code);
 
+/// The images that a shader reads or stores to.
+struct ShaderImages {
+  const std::string& name;  ///< of the shader
+  const std::vector<ShaderReflection::Descriptor>& descriptors;
+};
+
+/// @throws Error  an image is not in set 0.
+OwnedSetLayout make_set_layout(const ContextState& context, const ShaderImages& images,
+                               VkShaderStageFlags stage);
+
 /// Specialization constants in Vulkan's form; points into itself.
 struct SpecializationData {
   explicit SpecializationData(const std::vector<Specialization>& specializations);
@@ -259,6 +269,8 @@ struct RawKernel::State {
 struct RawRasterPipeline::State {
   std::string name;
   RasterOptions options;
+  std::vector<ShaderReflection::Descriptor> descriptors;  ///< of the fragment shader
+  OwnedSetLayout set_layout;                              ///< none: no images
   OwnedPipelineLayout layout;
   OwnedPipeline pipeline;
   std::uint32_t args_bytes = 0;
@@ -267,11 +279,13 @@ struct RawRasterPipeline::State {
 // ---- commands.cpp ----
 
 struct RenderPass::State {
+  ContextState& context;
   VkCommandBuffer commands = VK_NULL_HANDLE;
   std::vector<Format> colors;
   std::optional<Format> depth;
   int samples = 1;
   std::optional<std::pair<Culling, bool>> culling;
+  std::vector<ImageBinding> images;
 };
 
 struct Commands::State {

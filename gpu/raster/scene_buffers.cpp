@@ -53,6 +53,9 @@ std::uint32_t sampler_flags(const Sampler& sampler) {
   if (sampler.min == Filter::linear) flags |= texture_linear_min;
   if (sampler.mip == Filter::nearest) flags |= texture_mip_nearest;
   if (sampler.mip == Filter::linear) flags |= texture_mip_linear;
+  if (sampler.mag == Filter::linear && sampler.min == Filter::linear &&
+      sampler.mip == Filter::linear)
+    flags |= std::uint32_t(std::clamp(sampler.max_anisotropy, 1, 16)) << texture_anisotropy_shift;
   return flags;
 }
 

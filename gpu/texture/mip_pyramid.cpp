@@ -20,14 +20,14 @@ BufferRef<T> at(BufferRef<std::uint32_t> codes, std::size_t texel) {
   return {codes.address + texel * sizeof(std::uint32_t)};
 }
 
-/// Sides that two levels can be made of at once.
-bool makes_pairs(const MipLevel& level) { return level.width % 4 == 0 && level.height % 4 == 0; }
+/// Sides that three levels can be made of at once.
+bool makes_triples(const MipLevel& level) { return level.width % 8 == 0 && level.height % 8 == 0; }
 
 }  // namespace
 
 MipPyramid::MipPyramid(Context& context)
-    : linear_pair_(context, shaders::texture_mip_pyramid_comp, {{srgb_constant, 0}}),
-      srgb_pair_(context, shaders::texture_mip_pyramid_comp, {{srgb_constant, 1}}),
+    : linear_triple_(context, shaders::texture_mip_pyramid_comp, {{srgb_constant, 0}}),
+      srgb_triple_(context, shaders::texture_mip_pyramid_comp, {{srgb_constant, 1}}),
       linear_first_(context, shaders::texture_mip_level_comp,
                     {{srgb_constant, 0}, {from_codes_constant, 1}}),
       srgb_first_(context, shaders::texture_mip_level_comp,
@@ -42,9 +42,9 @@ MipPyramid::Scratch::Scratch(Context& context, int width, int height) {
   const auto room = [&](std::size_t level) {
     return level < levels.size() ? texels_of(levels[level]) : 0;
   };
-  const bool pairs = makes_pairs(levels[0]);
-  odd = Buffer<vec4>(context, pairs ? room(3) : room(1));
-  even = Buffer<vec4>(context, room(2));
+  const bool triples = makes_triples(levels[0]);
+  odd = Buffer<vec4>(context, triples ? room(3) : room(1));
+  even = Buffer<vec4>(context, triples ? room(4) : room(2));
 }
 
 void MipPyramid::record(Commands& commands, BufferRef<std::uint32_t> codes, int width, int height,
@@ -54,12 +54,13 @@ void MipPyramid::record(Commands& commands, BufferRef<std::uint32_t> codes, int 
     return level % 2 == 0 ? scratch.even : scratch.odd;
   };
   std::size_t next = 1;
-  if (makes_pairs(levels[0])) {
-    commands.dispatch(srgb ? srgb_pair_ : linear_pair_, {std::uint32_t(texels_of(levels[2]))},
-                      {at<uvec4>(codes, 0), at<uvec2>(codes, levels[1].first),
-                       at<std::uint32_t>(codes, levels[2].first), means(2), std::uint32_t(width),
-                       std::uint32_t(height)});
-    next = 3;
+  if (makes_triples(levels[0])) {
+    commands.dispatch(
+        srgb ? srgb_triple_ : linear_triple_, {std::uint32_t(texels_of(levels[3]))},
+        {at<uvec4>(codes, 0), at<uvec2>(codes, levels[1].first),
+         at<std::uint32_t>(codes, levels[2].first), at<std::uint32_t>(codes, levels[3].first),
+         means(3), std::uint32_t(width), std::uint32_t(height)});
+    next = 4;
   }
   for (; next < levels.size(); ++next) {
     const MipLevel& above = levels[next - 1];

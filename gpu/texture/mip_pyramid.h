@@ -33,7 +33,7 @@ class MipPyramid {
               const Scratch& scratch) const;
 
  private:
-  Kernel<MipPairArgs> linear_pair_, srgb_pair_;
+  Kernel<MipTripleArgs> linear_triple_, srgb_triple_;
   Kernel<MipLevelArgs> linear_first_, srgb_first_, linear_next_, srgb_next_;
 };
 

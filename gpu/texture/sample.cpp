@@ -1,6 +1,8 @@
 #include "gpu/texture/sample.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <stdexcept>
 #include <string>
 
@@ -13,6 +15,8 @@
 
 namespace parity::gpu {
 namespace {
+
+constexpr std::uint32_t borders_constant = 20, level_bias_constant = 21;
 
 void check(const MippedTexture& texture, const char* who) {
   if (texture.levels.empty()) throw std::invalid_argument(std::string(who) + ": no levels");
@@ -41,6 +45,8 @@ std::uint32_t flags_of(const MippedTexture& texture) {
   if (s.min == Filter::linear) flags |= texture_linear_min;
   if (s.mip == Filter::nearest) flags |= texture_mip_nearest;
   if (s.mip == Filter::linear) flags |= texture_mip_linear;
+  if (s.mag == Filter::linear && s.min == Filter::linear && s.mip == Filter::linear)
+    flags |= std::uint32_t(std::clamp(s.max_anisotropy, 1, 16)) << texture_anisotropy_shift;
   return flags;
 }
 
@@ -99,19 +105,65 @@ SamplerOptions sampler_options(const Sampler& s) {
           .linear_mip = s.mip == Filter::linear,
           .wrap_u = wrap(s.wrap_u),
           .wrap_v = wrap(s.wrap_v),
-          .max_lod = s.mip ? 1000.0f : 0.25f};
+          .max_lod = s.mip ? 1000.0f : 0.25f,
+          .max_anisotropy = float(s.max_anisotropy)};
+}
+
+using Footprints = Buffer<TextureFootprint>;
+
+std::vector<vec4> dispatch_lookups(Context& context, const Footprints& places,
+                                   std::span<const ImageBinding> images) {
+  const Buffer<vec4> colors(context, places.count());
+  const Kernel<HardwareSampleArgs> kernel(context, shaders::texture_hardware_sample_comp);
+  const auto count = std::uint32_t(places.count());
+  context.run([&](Commands& commands) {
+    commands.dispatch(kernel, {count}, {places, colors, count, 0}, images);
+  });
+  return colors.read();
+}
+
+/// A quad of pixels a footprint.
+std::vector<vec4> draw_lookups(Context& context, const Footprints& places,
+                               std::span<const ImageBinding> images) {
+  constexpr std::size_t row = 256;
+  if (places.count() == 0) return {};
+  const std::size_t rows = (places.count() + row - 1) / row;
+  const Format format = Format::rgba32_float;
+  const Image target(context, {.width = 2 * row, .height = int(2 * rows), .format = format});
+  const Buffer<vec4> pixels(context, 4 * row * rows);
+  const RasterPipeline<HardwareSampleArgs> pipeline(
+      context, shaders::raster_full_screen_vert, shaders::texture_hardware_sample_frag,
+      {.colors = {format}, .blends = {}, .depth = {}, .specializations = {}});
+  const HardwareSampleArgs args{places, {}, std::uint32_t(places.count()), row};
+  context.run([&](Commands& commands) {
+    commands.render(
+        {.colors = {{.image = &target, .clear = std::array<float, 4>{}, .resolve = nullptr}},
+         .depth = {}},
+        [&](RenderPass& pass) {
+          pass.bind(images);
+          pass.draw(pipeline, args, 3);
+        });
+    commands.copy(target, pixels);
+  });
+  const std::vector<vec4> all = pixels.read();
+  std::vector<vec4> colors;
+  for (std::size_t i = 0; i < places.count(); ++i)
+    colors.push_back(all[(i / row) * 4 * row + 2 * (i % row)]);
+  return colors;
 }
 
 }  // namespace
 
 std::vector<vec4> sample(Context& context, const MippedTexture& texture,
-                         std::span<const TextureFootprint> footprints) {
+                         std::span<const TextureFootprint> footprints, float level_bias) {
   check(texture, "gpu::sample");
   const Buffer<std::uint32_t> texels(context, pack(texture.levels));
   const Buffer<float> linear(context, srgb_table());
   const Buffer<TextureFootprint> places(context, footprints);
   const Buffer<vec4> colors(context, footprints.size());
-  const Kernel<TextureSampleArgs> kernel(context, shaders::texture_sample_comp, {{20, 1u}});
+  const Kernel<TextureSampleArgs> kernel(
+      context, shaders::texture_sample_comp,
+      {{borders_constant, 1u}, {level_bias_constant, std::bit_cast<std::uint32_t>(level_bias)}});
   const auto count = std::uint32_t(footprints.size());
   context.run([&](Commands& commands) {
     commands.dispatch(kernel, {count},
@@ -128,14 +180,9 @@ std::vector<vec4> hardware_sample(Context& context, const MippedTexture& texture
   const Image image = upload(context, texture, format);
   const ImageSampler sampler(context, sampler_options(texture.sampler));
   const Buffer<TextureFootprint> places(context, footprints);
-  const Buffer<vec4> colors(context, footprints.size());
-  const Kernel<HardwareSampleArgs> kernel(context, shaders::texture_hardware_sample_comp);
-  const auto count = std::uint32_t(footprints.size());
   const ImageBinding images[] = {{.image = &image, .sampler = &sampler}};
-  context.run([&](Commands& commands) {
-    commands.dispatch(kernel, {count}, {places, colors, count, 0}, images);
-  });
-  return colors.read();
+  return texture.sampler.max_anisotropy > 1 ? draw_lookups(context, places, images)
+                                            : dispatch_lookups(context, places, images);
 }
 
 }  // namespace parity::gpu

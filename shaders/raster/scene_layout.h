@@ -78,6 +78,7 @@ const uint texture_linear_mag = 1024u;
 const uint texture_linear_min = 2048u;
 const uint texture_mip_nearest = 4096u;
 const uint texture_mip_linear = 8192u;
+const uint texture_anisotropy_shift = 14u;  // 5 bits: 0 or 1: none
 
 struct SceneLight {
   vec3 position;   // relative to the origin, m

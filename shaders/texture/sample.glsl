@@ -4,7 +4,9 @@
 #ifndef PARITY_TEXTURE_SAMPLE_GLSL
 #define PARITY_TEXTURE_SAMPLE_GLSL
 #include "raster/scene_layout.h"
+#include "texture/anisotropic.glsl"
 
+layout(constant_id = 21) const float anisotropic_level_bias = 0.5;  // 0 to 1: how coarse a level
 layout(constant_id = 20) const bool has_borders = false;  // some texture is clamped to a border of 0
 
 // 1 where texel `i` counts, 0 where it is the border's.
@@ -65,13 +67,12 @@ float level_of_detail(SceneTexture t, vec2 duv_dx, vec2 duv_dy) {
   const vec2 size = vec2(t.width, t.height);
   const vec2 dx = duv_dx * size;
   const vec2 dy = duv_dy * size;
-  const float rho_squared = max(dot(dx, dx), dot(dy, dy));
-  return rho_squared > 0.0 ? 0.5 * log2(rho_squared) : -126.0;
+  return 0.5 * log2(max(dot(dx, dx), dot(dy, dy)));
 }
 
-vec4 sample_texture(SceneTexture t, vec2 uv, vec2 duv_dx, vec2 duv_dy, ref_float linear_from_srgb) {
+// One lookup at a level of detail.
+vec4 sample_at_level(SceneTexture t, vec2 uv, float lambda, ref_float linear_from_srgb) {
   const float last = float(t.level_count - 1u);
-  const float lambda = level_of_detail(t, duv_dx, duv_dy);
   const bool magnify = !(lambda > 0.0);
   const bool linear = (t.flags & (magnify ? texture_linear_mag : texture_linear_min)) != 0u;
   float level = 0.0;
@@ -89,5 +90,73 @@ vec4 sample_texture(SceneTexture t, vec2 uv, vec2 duv_dx, vec2 duv_dy, ref_float
     sum += w * sample_level(t, uint(level) + i, linear, uv, linear_from_srgb);
   }
   return sum;
+}
+
+// One level, averaged over an ellipse.
+vec4 average_level(SceneTexture t, uint level, vec2 uv, Ellipse ellipse, ref_float linear_from_srgb) {
+  const uint role = t.flags & texture_role_mask;
+  const bool srgb = role == texture_base_color || role == texture_emission;
+  const vec2 size = vec2(max(t.width >> level, 1u), max(t.height >> level, 1u));
+  const uint wrap_u = (t.flags >> texture_wrap_u_shift) & 3u;
+  const uint wrap_v = (t.flags >> texture_wrap_v_shift) & 3u;
+  const uint first = t.texels.at[level];
+  const EllipseRows rows = ellipse_rows(ellipse);
+  precise const vec2 middle = uv * size - 0.5;
+  vec4 sum = vec4(0.0);
+  float weights = 0.0;
+  [[dont_unroll]] for (float v = ceil(middle.y - rows.height); v <= middle.y + rows.height; ++v) {
+    const float dy = v - middle.y;
+    const float center = middle.x + rows.slope * dy;
+    const float reach = rows.half_width * sqrt(max(rows.height * rows.height - dy * dy, 0.0));
+    const uint row = first + wrap_texel(v, size.y, wrap_v) * uint(size.x);
+    [[dont_unroll]] for (float u = ceil(center - reach); u <= center + reach; ++u) {
+      const float weight = ellipse_weight(ellipse, vec2(u - middle.x, dy));
+      const uint texel = t.texels.at[row + wrap_texel(u, size.x, wrap_u)];
+      float w = weight;
+      if (has_borders)
+        w *= border_weight(u, size.x, wrap_u) * border_weight(v, size.y, wrap_v);
+      sum += w * decode_texel(texel, srgb, linear_from_srgb);
+      weights += weight;
+    }
+  }
+  return sum / weights;
+}
+
+// A minified texture over an ellipse: averaged in the level in which its minor half axis is about a
+// texel; over the last quarter of a level's range the next one is mixed in.
+vec4 sample_ellipse(SceneTexture t, vec2 uv, vec2 duv_dx, vec2 duv_dy, Ellipse base, float most,
+                    ref_float linear_from_srgb) {
+  const float last = float(t.level_count - 1u);
+  const float place = clamp(0.5 * log2(max(base.minor2, 1.0)) + anisotropic_level_bias, 0.0, last);
+  const float level = floor(place);
+  const float mix_weight = max(4.0 * (place - level) - 3.0, 0.0);
+  vec4 sum = vec4(0.0);
+  [[dont_unroll]] for (uint i = 0u; i < (mix_weight > 0.0 ? 2u : 1u); ++i) {
+    const uint k = uint(level) + i;
+    const vec2 size = vec2(max(t.width >> k, 1u), max(t.height >> k, 1u));
+    const float w = i == 0u ? 1.0 - mix_weight : mix_weight;
+    if (k + 1u >= t.level_count)
+      sum += w * sample_level(t, k, true, uv, linear_from_srgb);
+    else
+      sum += w * average_level(t, k, uv,
+                               with_texel(footprint_ellipse(duv_dx * size, duv_dy * size, most)),
+                               linear_from_srgb);
+  }
+  return sum;
+}
+
+// A texture over a pixel's footprint.
+vec4 sample_texture(SceneTexture t, vec2 uv, vec2 duv_dx, vec2 duv_dy, ref_float linear_from_srgb) {
+  const float most = float((t.flags >> texture_anisotropy_shift) & 31u);
+  if (most < 2.0) return sample_at_level(t, uv, level_of_detail(t, duv_dx, duv_dy), linear_from_srgb);
+  const vec2 size = vec2(t.width, t.height);
+  const Ellipse ellipse = footprint_ellipse(duv_dx * size, duv_dy * size, most);
+  if (!(ellipse.major2 > 1.0 && ellipse.major2 < 1e18))
+    return sample_at_level(t, uv, 0.5 * log2(ellipse.major2), linear_from_srgb);
+  const vec4 average =
+      sample_ellipse(t, uv, duv_dx, duv_dy, ellipse, most, linear_from_srgb);
+  const float share = ellipse.major2 - 1.0;  // from the magnified texture to the ellipse
+  return share >= 1.0 ? average
+                      : mix(sample_level(t, 0u, true, uv, linear_from_srgb), average, share);
 }
 #endif

@@ -108,7 +108,7 @@ Registration software_sampler(const std::string& name, const std::string& title,
       .cpu = {{.solve = [](const Lookups& p) { return sample_all(p); }}},
       .gpu = {{.solve =
                    [](gpu::Context& context, const Lookups& p) {
-                     return widened(gpu::sample(context, p.texture(), p.footprints));
+                     return widened(gpu::sample(context, p.texture(), p.footprints, 0.5f));
                    }}},
       .distance =
           [](const Lookups& p, const std::vector<dvec4>& got, const std::vector<dvec4>&) {
