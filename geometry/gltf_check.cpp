@@ -35,6 +35,14 @@ void check_meshes(const Document& document, const std::string& name) {
   }
 }
 
+/// 0 stands for an infinite index; between 0 and 1 there is none.
+void check_materials(const Document& document, const std::string& name) {
+  for (std::size_t m = 0; m < document.materials.size(); ++m)
+    if (const float ior = document.materials[m].ior; ior > 0 && ior < 1)
+      throw InputError(name, at("materials", m) + ".extensions.KHR_materials_ior.ior is " +
+                                 std::to_string(ior) + ", must be 0 or at least 1");
+}
+
 void check_skins(const Document& document, const std::string& name) {
   for (std::size_t s = 0; s < document.skins.size(); ++s) {
     const Skin& skin = document.skins[s];
@@ -129,6 +137,7 @@ void check_times(const Document& document, const Data& data, int input, const st
 }  // namespace
 
 void check_document(const Document& document, const std::string& name) {
+  check_materials(document, name);
   check_meshes(document, name);
   check_skins(document, name);
   check_instances(document, name);

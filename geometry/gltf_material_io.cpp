@@ -102,6 +102,73 @@ void apply_specular_glossiness(const Value& extension, Material& material) {
   material.base_color = vec4(glm::clamp(mixed, vec3(0), vec3(1)), diffuse.w);
 }
 
+vec3 color_value(const Value& object, const std::string& key, vec3 otherwise) {
+  return vec3(vector_value(object, key, vec4(otherwise, 0)));
+}
+
+void read_clearcoat(const Value& from, Clearcoat& to) {
+  to.factor = number_value(from, "clearcoatFactor", 0);
+  to.roughness = number_value(from, "clearcoatRoughnessFactor", 0);
+  to.texture = texture_use(from, "clearcoatTexture");
+  to.roughness_texture = texture_use(from, "clearcoatRoughnessTexture");
+  to.normal_texture = texture_use(from, "clearcoatNormalTexture");
+  if (from.Has("clearcoatNormalTexture"))
+    to.normal_scale = number_value(from.Get("clearcoatNormalTexture"), "scale", 1);
+}
+
+void read_specular(const Value& from, SpecularLobe& to) {
+  to.strength = number_value(from, "specularFactor", 1);
+  to.color = color_value(from, "specularColorFactor", vec3(1));
+  to.texture = texture_use(from, "specularTexture");
+  to.color_texture = texture_use(from, "specularColorTexture");
+}
+
+void read_sheen(const Value& from, Sheen& to) {
+  to.color = color_value(from, "sheenColorFactor", vec3(0));
+  to.roughness = number_value(from, "sheenRoughnessFactor", 0);
+  to.color_texture = texture_use(from, "sheenColorTexture");
+  to.roughness_texture = texture_use(from, "sheenRoughnessTexture");
+}
+
+void read_anisotropy(const Value& from, Anisotropy& to) {
+  to.strength = number_value(from, "anisotropyStrength", 0);
+  to.rotation = number_value(from, "anisotropyRotation", 0);
+  to.texture = texture_use(from, "anisotropyTexture");
+}
+
+void read_iridescence(const Value& from, Iridescence& to) {
+  to.factor = number_value(from, "iridescenceFactor", 0);
+  to.ior = number_value(from, "iridescenceIor", 1.3f);
+  to.thickness_minimum = number_value(from, "iridescenceThicknessMinimum", 100);
+  to.thickness_maximum = number_value(from, "iridescenceThicknessMaximum", 400);
+  to.texture = texture_use(from, "iridescenceTexture");
+  to.thickness_texture = texture_use(from, "iridescenceThicknessTexture");
+}
+
+void read_volume(const Value& from, Transmission& to) {
+  to.thickness = number_value(from, "thicknessFactor", 0);
+  to.attenuation_distance = number_value(from, "attenuationDistance", to.attenuation_distance);
+  to.attenuation_color = color_value(from, "attenuationColor", vec3(1));
+  to.thickness_texture = texture_use(from, "thicknessTexture");
+}
+
+void read_extensions(const tinygltf::ExtensionMap& extensions, Material& m) {
+  const auto read = [&](const char* name, auto&& action) {
+    if (const Value* from = find(extensions, std::string("KHR_materials_") + name)) action(*from);
+  };
+  read("ior", [&](const Value& from) { m.ior = number_value(from, "ior", 1.5f); });
+  read("specular", [&](const Value& from) { read_specular(from, m.specular); });
+  read("clearcoat", [&](const Value& from) { read_clearcoat(from, m.clearcoat); });
+  read("sheen", [&](const Value& from) { read_sheen(from, m.sheen); });
+  read("anisotropy", [&](const Value& from) { read_anisotropy(from, m.anisotropy); });
+  read("iridescence", [&](const Value& from) { read_iridescence(from, m.iridescence); });
+  read("volume", [&](const Value& from) { read_volume(from, m.transmission); });
+  read("transmission", [&](const Value& from) {
+    m.transmission.factor = number_value(from, "transmissionFactor", 0);
+    m.transmission.texture = texture_use(from, "transmissionTexture");
+  });
+}
+
 }  // namespace
 
 Material convert_material(const tinygltf::Material& from) {
@@ -127,6 +194,7 @@ Material convert_material(const tinygltf::Material& from) {
   material.normal_texture = texture_use(from.normalTexture);
   material.occlusion_texture = texture_use(from.occlusionTexture);
   material.emission_texture = texture_use(from.emissiveTexture);
+  read_extensions(from.extensions, material);
   if (const Value* extension = find(from.extensions, "KHR_materials_pbrSpecularGlossiness"))
     apply_specular_glossiness(*extension, material);
   return material;

@@ -46,9 +46,8 @@ class Builder {
     return from_.material < 0 ? nullptr : &conversion_.materials[std::size_t(from_.material)];
   }
 
-  bool maps_normals() const {
-    return out_.topology == Topology::triangles && material() &&
-           material()->normal_texture.texture >= 0;
+  bool wants_tangents() const {
+    return out_.topology == Topology::triangles && material() && needs_tangents(*material());
   }
 
   void read_indices() {
@@ -64,7 +63,7 @@ class Builder {
     out_.positions = reader_.read<vec3>("POSITION", false);
     check_declared_box();
     out_.normals = reader_.read<vec3>("NORMAL", true);
-    if (maps_normals() && !out_.normals.empty())
+    if (wants_tangents() && !out_.normals.empty())
       out_.tangents = reader_.read<vec4>("TANGENT", true);
     read_uvs();
     read_colors();
@@ -87,9 +86,8 @@ class Builder {
   void read_uvs() {
     if (!material()) return;
     const Material& m = *material();
-    for (const TextureUse* use : {&m.base_color_texture, &m.metallic_roughness_texture,
-                                  &m.normal_texture, &m.occlusion_texture, &m.emission_texture}) {
-      if (use->texture < 0) continue;
+    for (const TextureUse* use : parity::textures_of(m)) {
+      if (use->texture < 0 && !(wants_tangents() && use == &tangent_texture(m))) continue;
       const std::size_t set = std::size_t(use->uv_set);
       if (out_.uvs.size() <= set) out_.uvs.resize(set + 1);
       if (!out_.uvs[set].empty()) continue;
@@ -114,9 +112,9 @@ class Builder {
   void finish() {
     if (out_.topology == Topology::triangles) finish_normals(out_, conversion_.notes);
     mend_uvs_and_colors();
-    if (!maps_normals()) return;
+    if (!wants_tangents()) return;
     if (!out_.tangents.empty()) return normalize_tangents(out_, conversion_.notes);
-    const TextureUse& use = material()->normal_texture;
+    const TextureUse& use = tangent_texture(*material());
     std::vector<vec2> uvs = out_.uvs[std::size_t(use.uv_set)];
     for (vec2& uv : uvs) uv = vec2(use.texture_from_uv * vec3(uv, 1));
     make_tangents(out_, uvs);

@@ -181,7 +181,39 @@ const Shape emissive_strength_shape{number("emissiveStrength").at_least(0)};
 const Shape specular_glossiness_shape{
     unit("diffuseFactor").list(4, 4), unit("specularFactor").list(3, 3), unit("glossinessFactor"),
     object("diffuseTexture", info_shape), object("specularGlossinessTexture", info_shape)};
+const Shape clearcoat_shape{unit("clearcoatFactor"), object("clearcoatTexture", info_shape),
+                            unit("clearcoatRoughnessFactor"),
+                            object("clearcoatRoughnessTexture", info_shape),
+                            object("clearcoatNormalTexture", normal_info_shape)};
+const Shape specular_shape{unit("specularFactor"), object("specularTexture", info_shape),
+                           number("specularColorFactor").at_least(0).list(3, 3),
+                           object("specularColorTexture", info_shape)};
+const Shape ior_shape{number("ior").at_least(0)};
+const Shape sheen_shape{unit("sheenColorFactor").list(3, 3),
+                        object("sheenColorTexture", info_shape), unit("sheenRoughnessFactor"),
+                        object("sheenRoughnessTexture", info_shape)};
+const Shape anisotropy_shape{unit("anisotropyStrength"), number("anisotropyRotation"),
+                             object("anisotropyTexture", info_shape)};
+const Shape iridescence_shape{unit("iridescenceFactor"),
+                              object("iridescenceTexture", info_shape),
+                              number("iridescenceIor").at_least(1),
+                              number("iridescenceThicknessMinimum").at_least(0),
+                              number("iridescenceThicknessMaximum").at_least(0),
+                              object("iridescenceThicknessTexture", info_shape)};
+const Shape transmission_shape{unit("transmissionFactor"),
+                               object("transmissionTexture", info_shape)};
+const Shape volume_shape{
+    number("thicknessFactor").at_least(0), object("thicknessTexture", info_shape),
+    number("attenuationDistance").above(0), unit("attenuationColor").list(3, 3)};
 const Shape material_extensions{
+    object("KHR_materials_anisotropy", anisotropy_shape),
+    object("KHR_materials_clearcoat", clearcoat_shape),
+    object("KHR_materials_ior", ior_shape),
+    object("KHR_materials_iridescence", iridescence_shape),
+    object("KHR_materials_sheen", sheen_shape),
+    object("KHR_materials_specular", specular_shape),
+    object("KHR_materials_transmission", transmission_shape),
+    object("KHR_materials_volume", volume_shape),
     object("KHR_materials_unlit", empty_shape),
     object("KHR_materials_emissive_strength", emissive_strength_shape),
     object("KHR_materials_pbrSpecularGlossiness", specular_glossiness_shape)};
@@ -273,9 +305,17 @@ constexpr std::array supported_extensions{"EXT_mesh_gpu_instancing",
                                           "EXT_meshopt_compression",
                                           "KHR_draco_mesh_compression",
                                           "KHR_lights_punctual",
+                                          "KHR_materials_anisotropy",
+                                          "KHR_materials_clearcoat",
                                           "KHR_materials_emissive_strength",
+                                          "KHR_materials_ior",
+                                          "KHR_materials_iridescence",
                                           "KHR_materials_pbrSpecularGlossiness",
+                                          "KHR_materials_sheen",
+                                          "KHR_materials_specular",
+                                          "KHR_materials_transmission",
                                           "KHR_materials_unlit",
+                                          "KHR_materials_volume",
                                           "KHR_mesh_quantization",
                                           "KHR_texture_transform",
                                           "KHR_materials_variants"};

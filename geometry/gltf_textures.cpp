@@ -100,10 +100,7 @@ void convert_textures(const Document& document, const Data& data, const Origin& 
       check_uri(document.images[i].uri, origin, place_of(int(i)) + ".uri");
   TextureConverter converter(document, data, origin, scene);
   for (Material& material : scene.materials)
-    for (TextureUse* use :
-         {&material.base_color_texture, &material.metallic_roughness_texture,
-          &material.normal_texture, &material.occlusion_texture, &material.emission_texture})
-      converter.convert(*use);
+    for (TextureUse* use : textures_of(material)) converter.convert(*use);
 }
 
 }  // namespace parity::gltf

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "geometry/grid.h"
+#include "geometry/math.h"
+
+namespace parity {
+
+/// Part of white light from everywhere that a rough surface sends to the eye, 16 x 16, as both sides
+/// compute it (cpu::albedo_table and gpu::albedo_table with 64^2 samples an entry), to five digits: so
+/// that no renderer has to wait for it. A test holds it to what they compute.
+///
+/// Rows are roughness i / 15, at least 1/64; columns the cosine c at which
+/// (c (1 + alpha) / (c + alpha))^(1/2) = j / 15. White light comes back as x F0 + y (GGX, one bounce,
+/// Schlick); z is the mean of x + y over the cosine-weighted hemisphere; w is the albedo of a white
+/// Charlie sheen at the cosine (j / 15)^2.
+///
+/// Source: Karis 2013; Kulla & Conty 2017; Estevez & Kulla 2017.
+const Grid<vec4>& albedo_table();
+
+}  // namespace parity

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "geometry/grid.h"
+#include "geometry/math.h"
+
+namespace parity {
+
+/// Directions and the unit square: the octahedron |x| + |y| + |z| = 1 with its lower half folded
+/// out. u and v go from 0 to 1; (0.5, 0.5) is +z.
+///
+/// Source: Engelhardt & Dachsbacher 2008, "Octahedron Environment Maps".
+dvec2 octahedral_uv(const dvec3& direction);
+dvec3 octahedral_direction(const dvec2& uv);
+
+/// Light from all around, W/(m^2 sr), linear RGB.
+struct EnvironmentMap {
+  /// Octahedral, from the largest to the smallest, each side half of the one before. Texels are
+  /// averages over what they cover in the picture.
+  std::vector<Grid<vec4>> levels;
+};
+
+/// @param picture  equirectangular: the middle of its top is +y, its middle -z; any size.
+/// @param side     of the largest level, a power of two, 8 to 1024.
+/// @throws std::invalid_argument  an empty picture, a side out of range; light that is negative or
+///                                not finite counts as 0.
+EnvironmentMap environment_map(const Grid<vec4>& picture, int side);
+
+/// What a renderer needs of an environment: cpu::prefilter and gpu::prefilter make it.
+struct EnvironmentLight {
+  /// Irradiance over pi of a surface with normal (x, y, z): coefficients of 1, y, z, x, x y, y z,
+  /// 3 z^2 - 1, x z, x^2 - y^2.
+  std::array<vec3, 9> irradiance{};
+  /// What a mirror of roughness i / (size - 1) shows where it is looked at straight: octahedral,
+  /// with a border of one texel that repeats what is across the edge.
+  std::vector<Grid<vec4>> mirrors;
+};
+
+/// Sides of the levels of EnvironmentLight::mirrors without their borders.
+constexpr std::array<int, 6> mirror_sides{256, 128, 64, 32, 32, 32};
+
+/// Copies a level into the middle of one with a border. Across an edge of the square lies the texel
+/// that mirrors it at the middle of the edge.
+Grid<vec4> with_border(const Grid<vec4>& level);
+
+/// Radiance that a direction of the picture shows: the largest level, bilinear.
+vec3 radiance_toward(const EnvironmentMap& map, const dvec3& direction);
+
+}  // namespace parity
