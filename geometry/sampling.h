@@ -75,6 +75,15 @@ Grid<double> zone_plate(int width, int height, double k);
 /// grey: 1 where cos(spokes (phi - angle)) > 0, outside the disc 0.
 Grid<double> wheel(int side, int spokes, double angle);
 
+/// What one step of temporal accumulation gets. Colours hold in w for how many frames they stand.
+struct TemporalStep {
+  Grid<vec4> current;  ///< w is not read
+  Grid<vec4> history;
+  Grid<vec2> motion;   ///< px: what is at p now was at p + motion in the frame before
+  float longest = 16;  ///< frames that a colour may stand for, >= 1
+  bool clamps = true;  ///< history is held to the range of the 3x3 neighbours of now
+};
+
 /// The part of the unit pixel [0, 1]^2 where normal . p < offset, exactly.
 double half_plane_area(dvec2 normal, double offset);
 

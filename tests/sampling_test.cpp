@@ -2,18 +2,24 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <eigen3/unsupported/Eigen/FFT>
 #include <functional>
 #include <numbers>
 
+#include "cpu_reference/sampling/area_coverage.h"
+#include "cpu_reference/sampling/pattern.h"
 #include "cpu_reference/sampling/reconstruct.h"
 #include "cpu_reference/sampling/spectrum.h"
+#include "cpu_reference/sampling/temporal.h"
 #include "geometry/color.h"
 #include "geometry/random.h"
+#include "gpu/sampling/area_coverage.h"
 #include "gpu/sampling/reconstruct.h"
 #include "gpu/sampling/spectrum.h"
+#include "gpu/sampling/temporal.h"
 #include "tests/gpu_context.h"
 
 namespace parity {
@@ -240,6 +246,113 @@ TEST(Filters, TheAreaBesideALineIsExact) {
   EXPECT_DOUBLE_EQ(half_plane_area({1, 1}, 1.5), 0.875);
   EXPECT_DOUBLE_EQ(half_plane_area({1, 2}, 5), 1);
   EXPECT_DOUBLE_EQ(half_plane_area({1, 2}, -1), 0);
+}
+
+TEST(Patterns, StratifiedOnesHaveOneSampleInEachCellAndRow) {
+  for (const SamplePattern pattern : {SamplePattern::jittered, SamplePattern::multi_jittered}) {
+    std::vector<int> cells(16), columns(16), rows(16);
+    for (const dvec2& p : cpu::pattern(pattern, 16, 3)) {
+      ++cells[std::size_t(4 * int(4 * p.y) + int(4 * p.x))];
+      ++columns[std::size_t(16 * p.x)];
+      ++rows[std::size_t(16 * p.y)];
+    }
+    for (const int count : cells) EXPECT_EQ(count, 1);
+    if (pattern == SamplePattern::jittered) continue;
+    for (int i = 0; i < 16; ++i) EXPECT_EQ(columns[std::size_t(i)] * rows[std::size_t(i)], 1);
+  }
+}
+
+TEST(Patterns, SobolPutsASampleInEachIntervalOfArea16) {
+  const std::vector<dvec2> samples = cpu::pattern(SamplePattern::sobol, 16, 5);
+  for (int width = 1; width <= 16; width *= 2) {
+    std::vector<int> counts(16);
+    for (const dvec2& p : samples)
+      ++counts[std::size_t(int(p.x * width) * (16 / width) + int(p.y * (16 / width)))];
+    for (const int count : counts) EXPECT_EQ(count, 1) << width;
+  }
+}
+
+TEST(Patterns, BlueNoiseKeepsItsDistance) {
+  const auto least = [](const std::vector<dvec2>& samples) {
+    double nearest = 1;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        const dvec2 apart = samples[i] - samples[j];
+        nearest =
+            std::min(nearest, std::hypot(std::remainder(apart.x, 1), std::remainder(apart.y, 1)));
+      }
+    return nearest;
+  };
+  // The densest packing has sqrt(2 / sqrt(3) / n); best candidates reach more than half of it.
+  EXPECT_GT(least(cpu::pattern(SamplePattern::blue_noise, 256, 1)),
+            0.5 * std::sqrt(2 / std::sqrt(3.0) / 256));
+  EXPECT_LT(least(cpu::pattern(SamplePattern::random, 256, 1)), 0.02);
+}
+
+/// Row 21: the mean of jittered estimates is the truth, their variance at most that of chance, 1/N.
+TEST(Patterns, JitterIsRightOnAverageAndVariesLessThanChance) {
+  const dvec2 normal{0.6, 0.8};
+  const double area = half_plane_area(normal, 0.55);
+  for (const SamplePattern pattern : {SamplePattern::random, SamplePattern::jittered}) {
+    constexpr int seeds = 400, samples = 16;
+    double sum = 0, squares = 0;
+    for (int seed = 1; seed <= seeds; ++seed) {
+      double inside = 0;
+      for (const dvec2& p : cpu::pattern(pattern, samples, std::uint32_t(seed)))
+        inside += glm::dot(normal, p) < 0.55;
+      sum += inside / samples;
+      squares += std::pow(inside / samples - area, 2);
+    }
+    const double chance = area * (1 - area) / samples;
+    EXPECT_NEAR(sum / seeds, area, 4 * std::sqrt(chance / seeds));
+    // The variance of 400 squares: relative deviation sqrt(2 / 400), four of them.
+    EXPECT_LT(squares / seeds, chance * (pattern == SamplePattern::random ? 1.29 : 0.6));
+  }
+}
+
+TEST(AreaCoverage, SumsToTheAreaOfThePolygonAndOfItsHole) {
+  const Polygon square{{{{1.25f, 1.5f}, {6.75f, 1.5f}, {6.75f, 5}, {1.25f, 5}},
+                        {{3, 2}, {3, 3.5f}, {4.5f, 3.5f}, {4.5f, 2}}}};
+  const Grid<double> host = cpu::area_coverage(square, 8, 8);
+  const Grid<float> device = gpu::area_coverage(test_context(), square, 8, 8);
+  double sum = 0, device_sum = 0;
+  for (const double area : host) sum += area;
+  for (const float area : device) device_sum += double(area);
+  EXPECT_NEAR(sum, 5.5 * 3.5 - 1.5 * 1.5, 1e-12);
+  EXPECT_NEAR(device_sum, sum, 64 * gpu::area_coverage_bound(square, 8, 8));
+  EXPECT_DOUBLE_EQ(host(1, 1), 0.75 * 0.5);
+  EXPECT_DOUBLE_EQ(host(3, 2), 0);
+}
+
+TEST(AreaCoverage, IsTheAreaBesideALine) {
+  // A large triangle whose one side crosses the pixel (2, 2) from corner to corner, and below.
+  const Polygon triangle{{{{-40, 45}, {45, -40}, {45, 45}}}};
+  const Grid<double> areas = cpu::area_coverage(triangle, 5, 5);
+  EXPECT_NEAR(areas(2, 2), 1 - half_plane_area({1, 1}, 1), 1e-12);
+  EXPECT_NEAR(areas(2, 3), 1, 1e-12);
+  EXPECT_NEAR(areas(1, 2), 0, 1e-12);
+}
+
+TEST(Temporal, AccumulationOfAPictureAtRestIsItsMean) {
+  Grid<vec4> history{1, 1};
+  Random random{3};
+  float sum = 0;
+  for (int frame = 0; frame < 12; ++frame) {
+    const float value = random.uniform();
+    sum += value;
+    const vec2 motion = frame == 0 ? vec2(9) : vec2(0);
+    history = gpu::accumulate(test_context(), {Grid<vec4>(1, 1, vec4(value)), history,
+                                               Grid<vec2>(1, 1, motion), 64, false});
+  }
+  EXPECT_NEAR(history(0, 0).x, sum / 12, 1e-6f);
+  EXPECT_EQ(history(0, 0).w, 12);
+}
+
+TEST(Temporal, AHistoryThatDoesNotFitIsGivenUp) {
+  const TemporalStep step{Grid<vec4>(3, 3, vec4(0)), Grid<vec4>(3, 3, vec4(1, 1, 1, 20)),
+                          Grid<vec2>(3, 3, vec2(0))};
+  EXPECT_EQ(cpu::accumulate(step)(1, 1), dvec4(0, 0, 0, 1));
+  EXPECT_EQ(gpu::accumulate(test_context(), step)(1, 1), vec4(0, 0, 0, 1));
 }
 
 }  // namespace

@@ -39,6 +39,66 @@ struct ReconstructArgs {
   uint filter_kind;  ///< number of ReconstructionFilter
 };
 
+struct PatternArgs {
+  REF(vec2) samples;
+  uint pattern;  ///< number of SamplePattern; not blue noise
+  uint count;
+  uint columns;  ///< of the strata; columns rows = count
+  uint seed;
+};
+
+/// Blue noise, one sample a dispatch, places in 2^-15 px.
+struct BlueNoiseArgs {
+  REF(uvec2) places;
+  uint done;
+  uint seed;
+};
+
+/// Area of polygons in pixels. Edge: begin, end, px.
+struct AreaCoverageArgs {
+  REF(vec4) edges;
+  REF(float) areas;
+  uint width;
+  uint height;
+  uint first_edge;
+  uint last_edge;
+};
+
+/// One step of temporal accumulation. Colours hold in w how many frames they stand for.
+struct TemporalArgs {
+  REF(vec4) current;
+  REF(vec4) history;
+  REF(vec2) motion;  ///< px: the pixel's middle was at p + motion in the frame before
+  REF(vec4) result;
+  uint width;
+  uint height;
+  float longest;  ///< history, frames
+  uint clamps;    ///< history is held to the range of the 3x3 neighbours
+};
+
+/// Adds a frame to a picture that is the mean of several.
+struct FrameSumArgs {
+  REF(uint) words;  ///< RGBA16F of the frame
+  REF(vec4) colors;
+  uint pixel_count;
+  uint is_first;
+  float weight;
+};
+
+/// Which pixels need more samples. Flags and pixels are in the order of tiles of 8x8 pixels, row by
+/// row within; those outside of the picture never need any.
+struct PixelNeedArgs {
+  REF(vec4) colors;
+  REF(uint) flags;  ///< 1: needs more; scanned: how many do before it
+  REF(uint) pixels;  ///< y width + x of those that do
+  uint width;
+  uint height;
+  uint tiles_x;
+  uint place_count;  ///< 64 a tile
+  float gain;        ///< of the display, linear
+  float contrast;
+};
+
 #ifdef __cplusplus
 }  // namespace parity
 #endif
