@@ -109,7 +109,9 @@ TEST_P(Ghia, CavityCentrelinesWithinOnePercentOfTheLid) {
 }
 
 // Steady once the remaining change is far below 1 %: most of the way is made on the coarse grid.
-INSTANTIATE_TEST_SUITE_P(Cavity, Ghia, testing::Values(GhiaCase{100, 1, {{24, 8}, {64, 1.5}}}),
+INSTANTIATE_TEST_SUITE_P(Cavity, Ghia,
+                         testing::Values(GhiaCase{100, 1, {{24, 8}, {64, 1.5}}},
+                                         GhiaCase{400, 2, {{24, 16}, {48, 10}, {80, 6}}}),
                          [](const auto& test) {
                            return "Re" + std::to_string(int(test.param.reynolds));
                          });

@@ -27,7 +27,7 @@ class Multigrid {
   /// @param full  begin with full multigrid instead of the pressure that is there.
   void record_solve(Commands& commands, std::uint32_t cycles, bool full);
 
-  static constexpr std::uint32_t small_cells = 4096;
+  static constexpr std::uint32_t small_cells = 16384;
 
  private:
   void record_down(Commands& commands, std::size_t level, bool zero_guess);
