@@ -19,6 +19,7 @@
 #include "gpu/core/context.h"
 #include "gpu/raster/encode_srgb.h"
 #include "gpu/raster/renderer.h"
+#include "tools/antialias.h"
 #include "tools/progress.h"
 #include "tools/verb.h"
 
@@ -38,6 +39,8 @@ struct RenderArguments {
   std::string environment;
   double exposure = 0;
   int msaa = 4;
+  std::string aa;
+  std::optional<double> max_error;
   int threads = 0;
   bool dry_run = false;
   bool quiet = false;
@@ -121,9 +124,34 @@ Grid<vec4> straight_alpha(Grid<vec4> color) {
 struct Job {
   Picture picture;
   Grid<u8vec4> display;  ///< filled for 8-bit output
+  std::string aa;        ///< what --aa made it with; empty: not asked
+  std::vector<AntialiasingTrial> trials;
+  bool meets = true;  ///< the error that --aa auto was given
   std::string device;
   double seconds = 0;
 };
+
+void take(Job& job, Antialiased result) {
+  job.picture = std::move(result.picture);
+  job.aa = result.mode;
+  job.trials = std::move(result.trials);
+  job.meets = result.meets;
+}
+
+/// What --aa asks for; none: it was not given.
+std::optional<Antialiasing> antialiasing(const RenderArguments& arguments) {
+  if (arguments.aa.empty()) {
+    if (arguments.max_error) throw std::invalid_argument("--max-error is for --aa auto");
+    return std::nullopt;
+  }
+  Antialiasing mode = parse_antialiasing(arguments.aa);
+  const bool is_auto = mode.kind == Antialiasing::Kind::automatic;
+  if (is_auto != arguments.max_error.has_value())
+    throw std::invalid_argument(is_auto ? "--aa auto needs --max-error, a mean FLIP such as 0.002"
+                                        : "--max-error is for --aa auto");
+  if (is_auto) mode.max_error = *arguments.max_error;
+  return mode;
+}
 
 Job render_on_cpu(const RenderArguments& arguments, const Scene& scene, const Frame& frame,
                   bool display) {
@@ -131,11 +159,14 @@ Job render_on_cpu(const RenderArguments& arguments, const Scene& scene, const Fr
   Job job;
   job.device = "CPU reference";
   const double start = seconds_now();
-  job.picture = cpu::render(scene, frame, {}, [&](double done) {
-                  progress.set(std::size_t(1000 * done));
-                }).picture;
+  if (const auto mode = antialiasing(arguments))
+    take(job, render_antialiased(scene, frame.options, *mode));
+  else
+    job.picture = cpu::render(scene, frame, {}, [&](double done) {
+                    progress.set(std::size_t(1000 * done));
+                  }).picture;
   job.seconds = seconds_now() - start;
-  if (display)
+  if (display && job.meets)
     job.display = cpu::encode_srgb(straight_alpha(job.picture.color), float(arguments.exposure));
   return job;
 }
@@ -150,9 +181,12 @@ Job render_on_gpu(const RenderArguments& arguments, const Scene& scene, const Fr
                  "parity: %s ends long shader loops early: large scenes may come out wrong\n",
                  context.info().driver.c_str());
   const double start = seconds_now();
-  job.picture = gpu::render(context, scene, frame);
+  if (const auto mode = antialiasing(arguments))
+    take(job, render_antialiased(context, scene, frame.options, *mode, arguments.exposure));
+  else
+    job.picture = gpu::render(context, scene, frame);
   job.seconds = seconds_now() - start;
-  if (display)
+  if (display && job.meets)
     job.display =
         gpu::encode_srgb(context, straight_alpha(job.picture.color), float(arguments.exposure));
   return job;
@@ -165,22 +199,43 @@ nlohmann::json metrics(const RenderArguments& arguments, const Frame& frame, con
   nlohmann::json passes = nlohmann::json::array();
   for (const auto& [name, seconds] : job.picture.pass_seconds)
     passes.push_back({{"name", name}, {"time_ms", seconds * 1e3}});
-  return {{"schema", "parity.render"},
-          {"version", 1},
-          {"input", arguments.input},
-          {"backend", arguments.backend},
-          {"device", job.device},
-          {"width", frame.options.width},
-          {"height", frame.options.height},
-          {"samples", frame.options.samples},
-          {"triangles", job.picture.triangle_count},
-          {"draws", frame.draws.size()},
-          {"lights", frame.lights.size()},
-          {"load_ms", load_seconds * 1e3},
-          {"render_ms", job.seconds * 1e3},
-          {"passes", passes},
-          {"device_memory_bytes", job.picture.memory_bytes},
-          {"peak_process_bytes", std::uint64_t(usage.ru_maxrss) * 1024}};
+  nlohmann::json trials = nlohmann::json::array();
+  for (const AntialiasingTrial& trial : job.trials)
+    trials.push_back(
+        {{"mode", trial.mode}, {"flip", trial.error}, {"time_ms", trial.seconds * 1e3}});
+  return {
+      {"schema", "parity.render"},
+      {"version", 1},
+      {"input", arguments.input},
+      {"backend", arguments.backend},
+      {"device", job.device},
+      {"width", frame.options.width},
+      {"height", frame.options.height},
+      {"samples", frame.options.samples},
+      {"antialiasing", job.aa.empty() ? "msaa" + std::to_string(frame.options.samples) : job.aa},
+      {"antialiasing_trials", trials},
+      {"triangles", job.picture.triangle_count},
+      {"draws", frame.draws.size()},
+      {"lights", frame.lights.size()},
+      {"load_ms", load_seconds * 1e3},
+      {"render_ms", job.seconds * 1e3},
+      {"passes", passes},
+      {"device_memory_bytes", job.picture.memory_bytes},
+      {"peak_process_bytes", std::uint64_t(usage.ru_maxrss) * 1024}};
+}
+
+/// What --aa auto chose and why, in one line.
+void say_choice(const RenderArguments& arguments, const Job& job) {
+  if (job.trials.empty()) return;
+  std::string tried;
+  for (const AntialiasingTrial& trial : job.trials) {
+    char text[96];
+    std::snprintf(text, sizeof text, "%s%s FLIP %.4f %.0f ms", tried.empty() ? "" : ", ",
+                  trial.mode.c_str(), trial.error, trial.seconds * 1e3);
+    tried += text;
+  }
+  std::fprintf(stderr, "parity: --aa auto, FLIP at most %g: %s (%s)\n", *arguments.max_error,
+               job.meets ? job.aa.c_str() : "no mode meets it", tried.c_str());
 }
 
 void check_output(const RenderArguments& arguments) {
@@ -211,6 +266,7 @@ void save(const RenderArguments& arguments, const Job& job) {
 
 int render(const RenderArguments& arguments) {
   check_output(arguments);
+  antialiasing(arguments);
   const ivec2 size = parse_size(arguments.size);
   FrameOptions options{.width = size.x,
                        .height = size.y,
@@ -236,6 +292,8 @@ int render(const RenderArguments& arguments) {
   const bool display = std::filesystem::path(arguments.output).extension() == ".png";
   const Job job = arguments.backend == "cpu" ? render_on_cpu(arguments, scene, frame, display)
                                              : render_on_gpu(arguments, scene, frame, display);
+  if (!arguments.quiet || !job.meets) say_choice(arguments, job);
+  if (!job.meets) return 3;
   save(arguments, job);
   if (!arguments.metrics.empty()) {
     const std::string text = metrics(arguments, frame, job, load_seconds).dump(2) + "\n";
@@ -263,9 +321,17 @@ void add_render_verb(CLI::App& app, int& exit_code) {
   verb->add_option(
       "--camera", a->camera,
       "Name or number of a camera of the scene (default: the first, else all is framed)");
-  verb->add_option("--msaa", a->msaa, "Samples a pixel")
-      ->check(CLI::IsMember({1, 2, 4, 8}))
-      ->capture_default_str();
+  CLI::Option* msaa = verb->add_option("--msaa", a->msaa, "Samples a pixel")
+                          ->check(CLI::IsMember({1, 2, 4, 8}))
+                          ->capture_default_str();
+  verb->add_option("--aa", a->aa,
+                   "Antialiasing: none, msaa2, msaa4, msaa8; ssaaN (N a square): larger, then "
+                   "averaged; accumulateN: N shifted frames; adaptive: 16 samples where neighbours "
+                   "differ; auto: the fastest within --max-error")
+      ->excludes(msaa);
+  verb->add_option("--max-error", a->max_error,
+                   "With --aa auto: mean FLIP against 64 frames of this picture")
+      ->check(CLI::Range(0.0, 1.0));
   verb->add_option("--backend", a->backend, "gpu: Vulkan; cpu: the reference alone")
       ->check(CLI::IsMember({"gpu", "cpu"}))
       ->capture_default_str();
@@ -293,7 +359,8 @@ void add_render_verb(CLI::App& app, int& exit_code) {
       "  parity render assets/demo.glb -o demo.png\n"
       "  parity render bunny.ply -o bunny.png --size 1024x1024 --background transparent\n"
       "  parity render scene.gltf -o scene.exr --camera 1 --msaa 8 --metrics scene.json\n"
-      "  parity render scene.glb -o reference.png --backend cpu");
+      "  parity render scene.glb -o reference.png --backend cpu\n"
+      "  parity render scene.glb -o smooth.png --aa auto --max-error 0.002");
   verb->callback([a, &exit_code] {
     if (a->threads > 0) omp_set_num_threads(a->threads);
     exit_code = render(*a);

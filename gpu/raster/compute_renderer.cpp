@@ -15,23 +15,6 @@ void add_element(std::vector<uvec2>& items, std::uint32_t draw, std::uint32_t fi
   if (corners != 3) items.emplace_back(draw, first | item_second_half);
 }
 
-/// Opaque and masked elements in the order of the scene, then the blended from far to near.
-std::vector<uvec2> list_items(const Frame& frame, const SceneBuffers& scene,
-                              const SceneFrame& data) {
-  std::vector<uvec2> items;
-  for (std::size_t i = 0; i < frame.draws.size(); ++i) {
-    const Draw& draw = frame.draws[i];
-    if (scene.alpha_mode(draw.material) == AlphaMode::blend) continue;
-    const std::uint32_t corners = data.draws()[i].corners;
-    const std::size_t count = scene.primitive(draw.mesh, draw.primitive).indices.count;
-    for (std::size_t first = 0; first + corners <= count; first += corners)
-      add_element(items, std::uint32_t(i), std::uint32_t(first), corners);
-  }
-  for (const uvec2& element : data.order())
-    add_element(items, element.x, element.y, data.draws()[element.x].corners);
-  return items;
-}
-
 TileRasterizerOptions rasterizer_options(const Frame& frame, std::uint32_t item_count) {
   return {.width = frame.options.width,
           .height = frame.options.height,
@@ -63,6 +46,22 @@ Grid<T> grid(const Frame& frame, const Buffer<T>& buffer) {
 }
 
 }  // namespace
+
+std::vector<uvec2> triangle_items(const Frame& frame, const SceneBuffers& scene,
+                                  const SceneFrame& data) {
+  std::vector<uvec2> items;
+  for (std::size_t i = 0; i < frame.draws.size(); ++i) {
+    const Draw& draw = frame.draws[i];
+    if (scene.alpha_mode(draw.material) == AlphaMode::blend) continue;
+    const std::uint32_t corners = data.draws()[i].corners;
+    const std::size_t count = scene.primitive(draw.mesh, draw.primitive).indices.count;
+    for (std::size_t first = 0; first + corners <= count; first += corners)
+      add_element(items, std::uint32_t(i), std::uint32_t(first), corners);
+  }
+  for (const uvec2& element : data.order())
+    add_element(items, element.x, element.y, data.draws()[element.x].corners);
+  return items;
+}
 
 ComputeRenderer::Target::Target(Context& context, const SceneBuffers& scene, RenderOptions options,
                                 const Frame& frame, std::uint32_t item_count)
@@ -130,7 +129,7 @@ void ComputeRenderer::record(Commands& commands, const Frame& frame, const Buffe
 }
 
 Picture ComputeRenderer::render(const Frame& frame, const SceneFrame& data) {
-  const std::vector<uvec2> list = list_items(frame, scene_, data);
+  const std::vector<uvec2> list = triangle_items(frame, scene_, data);
   const auto count = std::uint32_t(list.size());
   const Buffer<uvec2> items(context_, list);
   const Buffer<SceneArgs> args(context_, std::vector<SceneArgs>{data.args()});

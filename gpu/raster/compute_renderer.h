@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "geometry/frame.h"
 #include "gpu/core/commands.h"
@@ -11,6 +12,11 @@
 #include "shaders/raster/scene_compute_layout.h"
 
 namespace parity::gpu {
+
+/// All elements of a frame as triangles (draw, first index; lines and points are two): the opaque
+/// and masked in the order of the scene, then the blended from far to near.
+std::vector<uvec2> triangle_items(const Frame& frame, const SceneBuffers& scene,
+                                  const SceneFrame& data);
 
 /// Draws frames in compute kernels, for sample counts that the device's own rasteriser lacks:
 /// clip positions, TileRasterizer, then shading of what is seen, with the functions that the

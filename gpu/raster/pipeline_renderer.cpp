@@ -224,6 +224,22 @@ void PipelineRenderer::draw_blended(RenderPass& pass, const Frame& frame, const 
   }
 }
 
+void PipelineRenderer::draw(Commands& commands, const Frame& frame, const SceneFrame& data) {
+  const bool blends = !data.order().empty();
+  commands.pass("opaque");
+  commands.render(opaque_targets(frame, !blends),
+                  [&](RenderPass& pass) { draw_opaque(pass, frame, data); });
+  if (!blends) return;
+  commands.pass("blend");
+  commands.render(blend_targets(), [&](RenderPass& pass) { draw_blended(pass, frame, data); });
+}
+
+void PipelineRenderer::record(Commands& commands, const Frame& frame, const SceneFrame& data) {
+  draw(commands, frame, data);
+  commands.copy(targets_->resolved_color ? *targets_->resolved_color : targets_->color,
+                targets_->color_words);
+}
+
 void PipelineRenderer::read_back(Commands& commands) const {
   const Targets& t = *targets_;
   commands.copy(t.resolved_color ? *t.resolved_color : t.color, t.color_words);
@@ -245,15 +261,8 @@ Picture PipelineRenderer::picture(const Frame& frame) const {
 
 Picture PipelineRenderer::render(const Frame& frame, const SceneFrame& data) {
   prepare(frame, data);
-  const bool blends = !data.order().empty();
   const Timing timing = context_.run([&](Commands& commands) {
-    commands.pass("opaque");
-    commands.render(opaque_targets(frame, !blends),
-                    [&](RenderPass& pass) { draw_opaque(pass, frame, data); });
-    if (blends) {
-      commands.pass("blend");
-      commands.render(blend_targets(), [&](RenderPass& pass) { draw_blended(pass, frame, data); });
-    }
+    draw(commands, frame, data);
     commands.pass("readback");
     read_back(commands);
   });

@@ -26,6 +26,14 @@ class PipelineRenderer {
 
   Picture render(const Frame& frame, const SceneFrame& data);
 
+  /// For what makes one picture of several frames of one size: prepare() before the submission,
+  /// record() in it.
+  void prepare(const Frame& frame, const SceneFrame& data);
+  /// Draws, and leaves the resolved colours in color_words().
+  void record(Commands& commands, const Frame& frame, const SceneFrame& data);
+  /// RGBA16F (RGBA32F: full_float), row-major.
+  const Buffer<std::uint32_t>& color_words() const { return targets_->color_words; }
+
  private:
   /// What distinguishes pipelines.
   struct Key {
@@ -56,11 +64,11 @@ class PipelineRenderer {
   };
 
   const RasterPipeline<SceneArgs>& pipeline(const Key& key);
-  void prepare(const Frame& frame, const SceneFrame& data);
   RenderTargets opaque_targets(const Frame& frame, bool resolve) const;
   RenderTargets blend_targets() const;
   void draw_opaque(RenderPass& pass, const Frame& frame, const SceneFrame& data);
   void draw_blended(RenderPass& pass, const Frame& frame, const SceneFrame& data);
+  void draw(Commands& commands, const Frame& frame, const SceneFrame& data);
   void read_back(Commands& commands) const;
   Picture picture(const Frame& frame) const;
   Key key_of(const Frame& frame, const SceneFrame& data, const Draw& draw) const;

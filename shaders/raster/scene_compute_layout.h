@@ -42,6 +42,24 @@ struct SceneShadeArgs {
   uint padding;
 };
 
+// Pixels that sampling/refine.comp draws anew.
+struct RefineArgs {
+  REF(SceneArgs) scene;
+  REF(uvec2) items;
+  REF(vec4) clip_positions;
+  REF(uint) begins;
+  REF(TileTriangle) tile_triangles;
+  REF(uint) pixels;  // y width + x
+  REF(vec4) colors;
+  uint width;
+  uint height;
+  vec4 background;  // premultiplied
+  uint tiles_x;
+  uint pixel_count;
+  uint has_unseen;  // some item is masked or blended
+  uint padding;
+};
+
 #ifdef __cplusplus
 }
 #endif

@@ -39,15 +39,9 @@ void add_uv(inout Fragment f, int pair, vec4 uv, float weight, float dx, float d
   f.uv_dy[pair] += dy * uv;
 }
 
-// The fragment of a triangle at the centre of a pixel; derivatives are differences within its
-// 2x2 quad, as dFdxFine and dFdyFine take them.
-Fragment interpolate(Corners c, SceneDraw draw, uvec2 item, uvec2 pixel, vec2 size) {
-  const vec2 point = (vec2(pixel) + 0.5) * 2.0 / size - 1.0;
-  const vec2 across = (vec2(pixel ^ 1u) + 0.5) * 2.0 / size - 1.0;
-  const vec2 turn = vec2((pixel.x & 1u) != 0u ? 1.0 : -1.0, (pixel.y & 1u) != 0u ? 1.0 : -1.0);
-  const vec3 here = barycentric(c, point);
-  const vec3 dx = (here - barycentric(c, vec2(across.x, point.y))) * turn.x;
-  const vec3 dy = (here - barycentric(c, vec2(point.x, across.y))) * turn.y;
+// The fragment of a triangle at a point of the window, from the weights of its corners there and
+// their differences to the next pixels.
+Fragment weighted(Corners c, SceneDraw draw, uvec2 item, vec2 point, vec3 here, vec3 dx, vec3 dy) {
   Fragment f;
   f.position = vec3(0.0);
   f.normal = vec3(0.0);
@@ -68,5 +62,26 @@ Fragment interpolate(Corners c, SceneDraw draw, uvec2 item, uvec2 pixel, vec2 si
   const bool counter_clockwise = area.x + area.y + area.z < 0.0;
   f.front = draw.corners != 3u || counter_clockwise != ((draw.flags & draw_flag_mirrored) != 0u);
   return f;
+}
+
+// At the centre of a pixel; derivatives are differences within its 2x2 quad, as dFdxFine and
+// dFdyFine take them.
+Fragment interpolate(Corners c, SceneDraw draw, uvec2 item, uvec2 pixel, vec2 size) {
+  const vec2 point = (vec2(pixel) + 0.5) * 2.0 / size - 1.0;
+  const vec2 across = (vec2(pixel ^ 1u) + 0.5) * 2.0 / size - 1.0;
+  const vec2 turn = vec2((pixel.x & 1u) != 0u ? 1.0 : -1.0, (pixel.y & 1u) != 0u ? 1.0 : -1.0);
+  const vec3 here = barycentric(c, point);
+  const vec3 dx = (here - barycentric(c, vec2(across.x, point.y))) * turn.x;
+  const vec3 dy = (here - barycentric(c, vec2(point.x, across.y))) * turn.y;
+  return weighted(c, draw, item, point, here, dx, dy);
+}
+
+// At any place of the window, in px; derivatives are differences to the places a pixel on.
+Fragment interpolate_at(Corners c, SceneDraw draw, uvec2 item, vec2 place, vec2 size) {
+  const vec2 point = place * 2.0 / size - 1.0, pixel = 2.0 / size;
+  const vec3 here = barycentric(c, point);
+  const vec3 dx = barycentric(c, point + vec2(pixel.x, 0.0)) - here;
+  const vec3 dy = barycentric(c, point + vec2(0.0, pixel.y)) - here;
+  return weighted(c, draw, item, point, here, dx, dy);
 }
 #endif

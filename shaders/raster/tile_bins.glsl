@@ -13,8 +13,8 @@ struct TileBox {
 TileBox tile_box(TrianglePiece t, RasterTarget target) {
   const ivec2 low = min(min(t.corner[0], t.corner[1]), t.corner[2]);
   const ivec2 high = max(max(t.corner[0], t.corner[1]), t.corner[2]);
-  // No sample is further than 7/16 pixel from the centre of its pixel.
-  const int reach = target.samples == 1u ? 0 : 112;
+  // No sample is further than 8/16 pixel from the centre of its pixel.
+  const int reach = target.samples == 1u ? 0 : 128;
   const ivec2 first = max((low - reach + 255) >> 8, ivec2(0));
   const ivec2 last = min((high + reach) >> 8, ivec2(target.width, target.height) - 1);
   if (t.element == 0u || any(lessThan(last, first))) return TileBox(ivec2(0), ivec2(-1));
@@ -33,7 +33,7 @@ bool is_outside_edge(ivec2 a, ivec2 b, vec2 middle, float reach) {
 
 bool touches_tile(TrianglePiece t, ivec2 tile, uint samples) {
   const vec2 middle = vec2(tile * 2048 + 896);
-  const float reach = samples == 1u ? 896.0 : 1008.0;
+  const float reach = samples == 1u ? 896.0 : 1024.0;
   return !(is_outside_edge(t.corner[0], t.corner[1], middle, reach) ||
            is_outside_edge(t.corner[1], t.corner[2], middle, reach) ||
            is_outside_edge(t.corner[2], t.corner[0], middle, reach));

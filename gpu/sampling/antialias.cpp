@@ -1,0 +1,310 @@
+#include "gpu/sampling/antialias.h"
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "geometry/jitter.h"
+#include "gpu/core/buffer.h"
+#include "gpu/core/commands.h"
+#include "gpu/core/kernel.h"
+#include "gpu/raster/compute_renderer.h"
+#include "gpu/raster/pipeline_renderer.h"
+#include "gpu/raster/prefix_sum.h"
+#include "gpu/raster/renderer.h"
+#include "gpu/raster/scene_buffers.h"
+#include "gpu/raster/scene_frame.h"
+#include "gpu/raster/tile_rasterizer.h"
+#include "shaders.h"
+#include "shaders/raster/scene_compute_layout.h"
+#include "shaders/sampling/layout.h"
+
+namespace parity::gpu {
+namespace {
+
+/// A tile's list holds what may touch places up to 8/16 px from the middles of its pixels, unless
+/// it is made for 1 sample.
+constexpr int list_samples = 8;
+
+Context& checked(Context& context) {
+  if (can_render(context.info())) return context;
+  throw Error(ErrorKind::missing_feature,
+              "device " + context.info().name + " cannot compile the renderer's shaders");
+}
+
+std::uint32_t tiles(int pixels) { return (std::uint32_t(pixels) + tile_side - 1) / tile_side; }
+
+std::vector<Specialization> refine_constants(const SceneBuffers& scene, DepthMode depth) {
+  std::vector<Specialization> constants =
+      scene_specializations(scene.features(), {.elements = false, .full_float = true});
+  constants.push_back({11, std::uint32_t(depth)});
+  return constants;
+}
+
+/// The triangles of a frame in the lists of its tiles.
+struct Lists {
+  Lists(Context& context, const Frame& frame, std::size_t count)
+      : items(context, count),
+        scene_args(context, 1),
+        clip_positions(context, count * 3),
+        triangles(context, count),
+        flags(context, count),
+        rasterizer(context, options_of(frame, count)) {}
+
+  static TileRasterizerOptions options_of(const Frame& frame, std::size_t count) {
+    return {.width = frame.options.width,
+            .height = frame.options.height,
+            .samples = list_samples,
+            .snapping = Snapping::mesa,
+            .depth = frame.options.depth,
+            .near = float(frame.near),
+            .far = float(frame.far),
+            .triangle_capacity = std::uint32_t(count)};
+  }
+
+  bool fits(const Frame& frame, std::size_t count) const {
+    const TileRasterizerOptions& have = rasterizer.options();
+    const TileRasterizerOptions want = options_of(frame, count);
+    return have.width == want.width && have.height == want.height && have.depth == want.depth &&
+           have.near == want.near && have.far == want.far &&
+           have.triangle_capacity == want.triangle_capacity;
+  }
+
+  void record(Commands& commands, const Kernel<SceneTriangleArgs>& kernel, const Frame& frame) {
+    const auto count = std::uint32_t(items.count());
+    if (count > 0)
+      commands.dispatch(kernel, {count},
+                        SceneTriangleArgs{.scene = scene_args,
+                                          .items = items,
+                                          .clip_positions = clip_positions,
+                                          .triangles = triangles,
+                                          .flags = flags,
+                                          .count = count,
+                                          .width = std::uint32_t(frame.options.width),
+                                          .height = std::uint32_t(frame.options.height),
+                                          .padding = 0});
+    rasterizer.record_lists(commands, {.clip_positions = clip_positions,
+                                       .triangles = triangles,
+                                       .flags = flags,
+                                       .triangle_count = count,
+                                       .first_element = 1});
+  }
+
+  Buffer<uvec2> items;
+  Buffer<SceneArgs> scene_args;
+  Buffer<vec4> clip_positions;
+  Buffer<uvec3> triangles;
+  Buffer<std::uint32_t> flags;
+  TileRasterizer rasterizer;
+};
+
+/// What is kept for pictures of one size.
+struct Target {
+  Target(Context& context, ivec2 picture)
+      : size(picture),
+        places(std::size_t(tiles(size.x)) * tiles(size.y) * tile_side * tile_side),
+        colors(context, std::size_t(size.x) * std::size_t(size.y)),
+        flags(context, places + 1),
+        pixels(context, colors.count()),
+        prefix_sum(context, places + 1) {}
+
+  PixelNeedArgs need(float contrast, float gain) const {
+    return {.colors = colors,
+            .flags = flags,
+            .pixels = pixels,
+            .width = std::uint32_t(size.x),
+            .height = std::uint32_t(size.y),
+            .tiles_x = tiles(size.x),
+            .place_count = std::uint32_t(places),
+            .gain = gain,
+            .contrast = contrast};
+  }
+
+  ivec2 size;
+  std::size_t places;  ///< whole tiles
+  Buffer<vec4> colors;
+  Buffer<std::uint32_t> flags;
+  Buffer<std::uint32_t> pixels;
+  PrefixSum prefix_sum;
+};
+
+}  // namespace
+
+struct Antialiaser::State {
+  State(Context& device, const Scene& scene)
+      : context(device),
+        bytes_before(device.memory_bytes()),
+        buffers(device, scene),
+        blended(scene),
+        pipelines(device, buffers, {}),
+        sum(device, shaders::sampling_frame_sum_comp),
+        need(device, shaders::sampling_pixel_need_comp),
+        list(device, shaders::sampling_pixel_list_comp),
+        triangles(device, shaders::raster_scene_triangles_comp) {}
+
+  void begin(const Frame& frame);
+  void add(Commands& commands, const Frame& frame, const SceneFrame& data, bool is_first,
+           float weight);
+  void refine(Commands& commands, const Frame& frame, const Lists& of, std::uint32_t count,
+              bool has_unseen);
+  Picture finish(const Frame& frame, const SceneFrame& data);
+
+  Context& context;
+  std::uint64_t bytes_before;
+  SceneBuffers buffers;
+  BlendedPrimitives blended;
+  PipelineRenderer pipelines;
+  Kernel<FrameSumArgs> sum;
+  Kernel<PixelNeedArgs> need, list;
+  Kernel<SceneTriangleArgs> triangles;
+  std::optional<Kernel<RefineArgs>> refine_kernel;
+  DepthMode refine_depth = DepthMode::reverse_z;
+  std::optional<Target> target;
+  std::optional<Lists> lists;  ///< kept while size, depth and count of triangles stay
+  std::vector<std::pair<std::string, double>> passes;
+  double refined = 0;
+};
+
+void Antialiaser::State::begin(const Frame& frame) {
+  const std::vector<int>& offered = context.info().sample_counts;
+  if (std::ranges::find(offered, frame.options.samples) == offered.end())
+    throw std::invalid_argument("gpu::Antialiaser: " + std::to_string(frame.options.samples) +
+                                " samples, which the device does not offer");
+  const ivec2 size{frame.options.width, frame.options.height};
+  if (!target || target->size != size) {
+    target.reset();
+    target.emplace(context, size);
+  }
+  passes.clear();
+}
+
+void Antialiaser::State::add(Commands& commands, const Frame& frame, const SceneFrame& data,
+                             bool is_first, float weight) {
+  pipelines.record(commands, frame, data);
+  commands.pass("sum");
+  const auto count = std::uint32_t(target->colors.count());
+  commands.dispatch(sum, {count},
+                    FrameSumArgs{.words = pipelines.color_words(),
+                                 .colors = target->colors,
+                                 .pixel_count = count,
+                                 .is_first = is_first ? 1u : 0u,
+                                 .weight = weight});
+}
+
+void Antialiaser::State::refine(Commands& commands, const Frame& frame, const Lists& of,
+                                std::uint32_t count, bool has_unseen) {
+  if (!refine_kernel || refine_depth != frame.options.depth)
+    refine_kernel.emplace(context, shaders::sampling_refine_comp,
+                          refine_constants(buffers, frame.options.depth));
+  refine_depth = frame.options.depth;
+  const vec4 b = frame.options.background;
+  commands.pass("refine");
+  commands.dispatch(*refine_kernel, {count},
+                    RefineArgs{.scene = of.scene_args,
+                               .items = of.items,
+                               .clip_positions = of.clip_positions,
+                               .begins = of.rasterizer.tile_begins(),
+                               .tile_triangles = of.rasterizer.tile_triangles(),
+                               .pixels = target->pixels,
+                               .colors = target->colors,
+                               .width = std::uint32_t(target->size.x),
+                               .height = std::uint32_t(target->size.y),
+                               .background = vec4(vec3(b) * b.w, b.w),
+                               .tiles_x = of.rasterizer.tiles_x(),
+                               .pixel_count = count,
+                               .has_unseen = has_unseen ? 1u : 0u,
+                               .padding = 0});
+}
+
+Picture Antialiaser::State::finish(const Frame& frame, const SceneFrame& data) {
+  Picture picture;
+  picture.color = Grid<vec4>(frame.options.width, frame.options.height);
+  picture.color.values() = target->colors.read();
+  picture.triangle_count = data.triangle_count();
+  picture.pass_seconds = passes;
+  const std::uint64_t bytes = context.memory_bytes();
+  picture.memory_bytes = bytes > bytes_before ? bytes - bytes_before : 0;
+  return picture;
+}
+
+Antialiaser::Antialiaser(Context& context, const Scene& scene)
+    : state_(std::make_unique<State>(checked(context), scene)) {}
+Antialiaser::~Antialiaser() = default;
+Antialiaser::Antialiaser(Antialiaser&&) noexcept = default;
+Antialiaser& Antialiaser::operator=(Antialiaser&&) noexcept = default;
+
+Picture Antialiaser::accumulate(const Frame& frame, std::span<const dvec2> shifts) {
+  if (shifts.empty()) throw std::invalid_argument("gpu::Antialiaser: no shift");
+  State& s = *state_;
+  s.begin(frame);
+  double seconds = 0;
+  std::optional<SceneFrame> data;
+  for (const dvec2& shift : shifts) {
+    const Frame moved = shifted(frame, shift);
+    data.emplace(s.context, s.buffers, s.blended, moved);
+    s.pipelines.prepare(moved, *data);
+    seconds +=
+        s.context
+            .run([&](Commands& commands) {
+              s.add(commands, moved, *data, &shift == shifts.data(), 1.0f / float(shifts.size()));
+            })
+            .seconds;
+  }
+  s.passes = {{"frames", seconds}};
+  return s.finish(frame, *data);
+}
+
+Picture Antialiaser::adaptive(const Frame& frame, float contrast, float gain) {
+  if (frame.options.samples != 1)
+    throw std::invalid_argument("gpu::Antialiaser: " + std::to_string(frame.options.samples) +
+                                " samples, must be 1");
+  State& s = *state_;
+  s.begin(frame);
+  const SceneFrame data(s.context, s.buffers, s.blended, frame);
+  s.pipelines.prepare(frame, data);
+  Target& t = *s.target;
+  const PixelNeedArgs need = t.need(contrast, gain);
+  const auto places = std::uint32_t(t.places);
+  Timing timing = s.context.run([&](Commands& commands) {
+    s.add(commands, frame, data, true, 1);
+    commands.pass("need");
+    commands.fill(t.flags, 0);
+    commands.dispatch(s.need, {places}, need);
+    t.prefix_sum.record(commands, t.flags, places + 1);
+    commands.dispatch(s.list, {places}, need);
+  });
+  s.passes = timing.passes;
+  const std::uint32_t count = t.flags.read(t.places, 1)[0];
+  s.refined = double(count) / double(t.colors.count());
+  if (count == 0) return s.finish(frame, data);
+  // The places of the samples are whole sixteenths; their mean is half of one above and left of the
+  // middle.
+  const Frame moved = shifted(frame, dvec2(-1.0 / 32));
+  const SceneFrame moved_data(s.context, s.buffers, s.blended, moved);
+  const std::vector<uvec2> items = triangle_items(moved, s.buffers, moved_data);
+  if (!s.lists || !s.lists->fits(moved, items.size())) {
+    s.lists.reset();
+    s.lists.emplace(s.context, moved, items.size());
+  }
+  Lists& lists = *s.lists;
+  lists.items.write(items);
+  lists.scene_args.write(std::vector<SceneArgs>{moved_data.args()});
+  do {
+    timing = s.context.run([&](Commands& commands) {
+      commands.pass("lists");
+      lists.record(commands, s.triangles, moved);
+    });
+  } while (!lists.rasterizer.fit(s.context));
+  s.passes.insert(s.passes.end(), timing.passes.begin(), timing.passes.end());
+  const bool has_unseen = !data.order().empty() || s.buffers.features().cuts_out;
+  timing = s.context.run(
+      [&](Commands& commands) { s.refine(commands, moved, lists, count, has_unseen); });
+  s.passes.insert(s.passes.end(), timing.passes.begin(), timing.passes.end());
+  return s.finish(frame, data);
+}
+
+double Antialiaser::refined() const { return state_->refined; }
+
+}  // namespace parity::gpu

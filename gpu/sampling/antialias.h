@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "geometry/frame.h"
+#include "geometry/scene.h"
+#include "gpu/core/context.h"
+
+namespace parity::gpu {
+
+/// Pictures of a scene with more samples than one a pixel, other than by MSAA.
+///
+/// Source: notes 1.8; Haeberli & Akeley 1990 (accumulation); Mitchell 1987 (adaptive).
+class Antialiaser {
+ public:
+  /// @throws Error  the scene does not fit the device.
+  Antialiaser(Context& context, const Scene& scene);
+  ~Antialiaser();
+  Antialiaser(Antialiaser&&) noexcept;
+  Antialiaser& operator=(Antialiaser&&) noexcept;
+
+  /// The mean of the frame moved by each of the shifts (px, relative to the pixel's middle): all
+  /// samples are shaded.
+  ///
+  /// @param frame  of the scene, with a sample count that the device itself offers.
+  /// @return       colour only.
+  /// @throws std::invalid_argument  no shift; a sample count that the device does not offer.
+  Picture accumulate(const Frame& frame, std::span<const dvec2> shifts);
+
+  /// One sample a pixel; where it differs on the screen from a pixel around it, 16: of these each
+  /// four in a quarter of the pixel that show one triangle share a shade.
+  ///
+  /// @param frame     1 sample a pixel.
+  /// @param contrast  of gamma-2 display values of any channel, 0 to 1; pixels with more are
+  ///                  refined.
+  /// @param gain      of the display, linear.
+  /// @return          colour only.
+  /// @throws std::invalid_argument  samples not 1.
+  Picture adaptive(const Frame& frame, float contrast, float gain);
+
+  /// Share of the pixels that the last adaptive() refined.
+  double refined() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace parity::gpu

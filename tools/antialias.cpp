@@ -1,0 +1,216 @@
+#include "tools/antialias.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+
+#include "cpu_reference/raster/renderer.h"
+#include "cpu_reference/sampling/pattern.h"
+#include "cpu_reference/sampling/reconstruct.h"
+#include "geometry/flip.h"
+#include "geometry/jitter.h"
+#include "gpu/raster/renderer.h"
+#include "gpu/sampling/antialias.h"
+#include "gpu/sampling/reconstruct.h"
+#include "tests/stage.h"
+
+namespace parity::tools {
+namespace {
+
+using Kind = Antialiasing::Kind;
+
+constexpr float adaptive_contrast = 0.04f;
+constexpr int most_frames = 4096;
+
+int root_of(int samples) { return int(std::lround(std::sqrt(double(samples)))); }
+
+/// The number after a name; none if the text is not that name and a number.
+std::optional<int> number_after(const std::string& text, const std::string& name) {
+  if (!text.starts_with(name)) return std::nullopt;
+  int number = 0;
+  const char* begin = text.data() + name.size();
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(begin, end, number);
+  return error == std::errc{} && stop == end ? std::optional(number) : std::nullopt;
+}
+
+std::vector<dvec2> shifts_of(int frames) {
+  std::vector<dvec2> shifts = cpu::pattern(SamplePattern::multi_jittered, std::uint32_t(frames), 1);
+  for (dvec2& shift : shifts) shift -= 0.5;
+  return shifts;
+}
+
+FrameOptions with_samples(FrameOptions options, int samples) {
+  options.samples = samples;
+  return options;
+}
+
+FrameOptions enlarged(FrameOptions options, int samples) {
+  const int factor = root_of(samples);
+  options.samples = 1;
+  if (options.width > 16384 / factor || options.height > 16384 / factor)
+    throw std::invalid_argument("--aa ssaa" + std::to_string(samples) + " makes a picture of " +
+                                std::to_string(options.width * factor) + "x" +
+                                std::to_string(options.height * factor) +
+                                ", sides must be at most 16384");
+  options.width *= factor;
+  options.height *= factor;
+  return options;
+}
+
+/// One scene by any mode.
+class Device {
+ public:
+  Device(gpu::Context& context, const Scene& scene, const FrameOptions& options, double exposure)
+      : context_(context), scene_(scene), options_(options), gain_(std::exp2(float(exposure))) {}
+
+  Picture render(const Antialiasing& mode) {
+    switch (mode.kind) {
+      case Kind::ssaa: {
+        Picture picture =
+            gpu::render(context_, scene_, make_frame(scene_, enlarged(options_, mode.samples)));
+        picture.color = gpu::reconstruct(context_, picture.color, {options_.width, options_.height},
+                                         ReconstructionFilter::box);
+        return picture;
+      }
+      case Kind::accumulate:
+        return antialiaser().accumulate(make_frame(scene_, with_samples(options_, 1)),
+                                        shifts_of(mode.samples));
+      case Kind::adaptive:
+        return antialiaser().adaptive(make_frame(scene_, with_samples(options_, 1)),
+                                      adaptive_contrast, gain_);
+      default:
+        if (!renderer_) renderer_.emplace(context_, scene_);
+        return renderer_->render(make_frame(scene_, with_samples(options_, mode.samples)));
+    }
+  }
+
+  Antialiased choose(double max_error) {
+    const Grid<vec4> truth = shown(render({.kind = Kind::accumulate, .samples = 64}).color);
+    Antialiased best;
+    best.meets = false;
+    double least = 0;
+    for (const Antialiasing& mode : candidates()) {
+      render(mode);  // what is made once is not counted
+      const double start = detail::wall_seconds();
+      Picture picture = render(mode);
+      const double seconds = detail::wall_seconds() - start;
+      const double error = mean(flip(truth, shown(picture.color), usual_pixels_per_degree));
+      best.trials.push_back({name_of(mode), error, seconds});
+      if (error > max_error || (best.meets && seconds >= least)) continue;
+      best.picture = std::move(picture);
+      best.mode = name_of(mode);
+      best.meets = true;
+      least = seconds;
+    }
+    return best;
+  }
+
+ private:
+  static std::vector<Antialiasing> candidates() {
+    return {{.kind = Kind::msaa, .samples = 1},       {.kind = Kind::msaa, .samples = 4},
+            {.kind = Kind::adaptive, .samples = 16},  {.kind = Kind::msaa, .samples = 8},
+            {.kind = Kind::accumulate, .samples = 4}, {.kind = Kind::accumulate, .samples = 8},
+            {.kind = Kind::accumulate, .samples = 16}};
+  }
+
+  gpu::Antialiaser& antialiaser() {
+    if (!antialiaser_) antialiaser_.emplace(context_, scene_);
+    return *antialiaser_;
+  }
+
+  Grid<vec4> shown(Grid<vec4> color) const {
+    for (vec4& c : color) c = vec4(vec3(c) * gain_, c.w);
+    return color;
+  }
+
+  gpu::Context& context_;
+  const Scene& scene_;
+  FrameOptions options_;
+  float gain_;
+  std::optional<gpu::Renderer> renderer_;
+  std::optional<gpu::Antialiaser> antialiaser_;
+};
+
+Picture mean_of_frames(const Scene& scene, const Frame& frame, int count) {
+  Picture sum;
+  for (const dvec2& shift : shifts_of(count)) {
+    Picture picture = cpu::render(scene, shifted(frame, shift)).picture;
+    const float weight = 1.0f / float(count);
+    for (vec4& c : picture.color) c *= weight;
+    if (sum.color.empty()) {
+      sum = std::move(picture);
+      continue;
+    }
+    for (std::size_t i = 0; i < sum.color.size(); ++i)
+      sum.color.values()[i] += picture.color.values()[i];
+  }
+  return sum;
+}
+
+}  // namespace
+
+Antialiasing parse_antialiasing(const std::string& text) {
+  if (text == "none") return {};
+  if (text == "adaptive") return {.kind = Kind::adaptive, .samples = 16};
+  if (text == "auto") return {.kind = Kind::automatic};
+  if (const auto n = number_after(text, "msaa"); n && (*n == 2 || *n == 4 || *n == 8))
+    return {.kind = Kind::msaa, .samples = *n};
+  if (const auto n = number_after(text, "ssaa");
+      n && *n >= 4 && *n <= 256 && root_of(*n) * root_of(*n) == *n)
+    return {.kind = Kind::ssaa, .samples = *n};
+  if (const auto n = number_after(text, "accumulate"); n && *n >= 1 && *n <= most_frames)
+    return {.kind = Kind::accumulate, .samples = *n};
+  throw std::invalid_argument(
+      "--aa is '" + text +
+      "', must be none, msaa2, msaa4, msaa8, ssaaN (N a square, 4 to 256), accumulateN (1 to "
+      "4096), adaptive or auto");
+}
+
+std::string name_of(const Antialiasing& mode) {
+  switch (mode.kind) {
+    case Kind::ssaa:
+      return "ssaa" + std::to_string(mode.samples);
+    case Kind::accumulate:
+      return "accumulate" + std::to_string(mode.samples);
+    case Kind::adaptive:
+      return "adaptive";
+    case Kind::automatic:
+      return "auto";
+    default:
+      return mode.samples == 1 ? "none" : "msaa" + std::to_string(mode.samples);
+  }
+}
+
+Antialiased render_antialiased(gpu::Context& context, const Scene& scene,
+                               const FrameOptions& options, const Antialiasing& mode,
+                               double exposure) {
+  Device device(context, scene, options, exposure);
+  if (mode.kind == Kind::automatic) return device.choose(mode.max_error);
+  return {.picture = device.render(mode), .mode = name_of(mode), .trials = {}};
+}
+
+Antialiased render_antialiased(const Scene& scene, const FrameOptions& options,
+                               const Antialiasing& mode) {
+  Antialiased result{.picture = {}, .mode = name_of(mode), .trials = {}};
+  if (mode.kind == Kind::msaa) {
+    result.picture =
+        cpu::render(scene, make_frame(scene, with_samples(options, mode.samples))).picture;
+  } else if (mode.kind == Kind::accumulate) {
+    result.picture =
+        mean_of_frames(scene, make_frame(scene, with_samples(options, 1)), mode.samples);
+  } else if (mode.kind == Kind::ssaa) {
+    result.picture = cpu::render(scene, make_frame(scene, enlarged(options, mode.samples))).picture;
+    Grid<dvec4> wide{result.picture.color.width(), result.picture.color.height()};
+    std::copy(result.picture.color.begin(), result.picture.color.end(), wide.begin());
+    wide = cpu::reconstruct(wide, {options.width, options.height}, ReconstructionFilter::box);
+    result.picture.color = {options.width, options.height};
+    std::copy(wide.begin(), wide.end(), result.picture.color.begin());
+  } else {
+    throw std::invalid_argument("--aa " + result.mode + " is of --backend gpu only");
+  }
+  return result;
+}
+
+}  // namespace parity::tools
