@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "gpu/raster/half.h"
-#include "tests/renderer_stage.h"
+#include "tests/renderer_scene.h"
 
 namespace parity {
 namespace {
@@ -14,11 +14,11 @@ namespace {
 TEST(Renderer, RefusesADeviceThatCannotCompileIt) {
   EXPECT_FALSE(gpu::can_render({.is_swiftshader = true}));
   if (gpu::can_render(test_context().info())) return;
-  EXPECT_THROW(gpu::Renderer(test_context(), Stage().scene), gpu::Error);
+  EXPECT_THROW(gpu::Renderer(test_context(), TestScene().scene), gpu::Error);
 }
 
 TEST_F(GpuRenderer, AnEmptySceneShowsTheBackgroundPremultiplied) {
-  Stage stage;
+  TestScene stage;
   stage.options.background = vec4(0.5f, 0.25f, 1.0f, 0.5f);
   const Picture picture = stage.render({.elements = true, .full_float = true});
   for (const vec4& pixel : picture.color) expect_near(pixel, vec4(0.25f, 0.125f, 0.5f, 0.5f), 0);
@@ -28,7 +28,7 @@ TEST_F(GpuRenderer, AnEmptySceneShowsTheBackgroundPremultiplied) {
 }
 
 TEST_F(GpuRenderer, ASquareLitHeadOnHasTheAnalyticRadiance) {
-  Stage stage;
+  TestScene stage;
   Material& material = stage.add_material();
   material.base_color = vec4(0.8f, 0.5f, 0.2f, 1.0f);
   material.metallic = 0;
@@ -45,7 +45,7 @@ TEST_F(GpuRenderer, ASquareLitHeadOnHasTheAnalyticRadiance) {
 }
 
 TEST_F(GpuRenderer, APointLightFallsOffWithTheSquareAndEndsAtItsRange) {
-  Stage stage;
+  TestScene stage;
   Material& material = stage.add_material();
   material.metallic = 0;
   stage.add(square(2, 0));
@@ -61,7 +61,7 @@ TEST_F(GpuRenderer, APointLightFallsOffWithTheSquareAndEndsAtItsRange) {
 }
 
 TEST_F(GpuRenderer, ASpotLightIsDarkOutsideItsConeAndFullInside) {
-  Stage stage;
+  TestScene stage;
   Material& material = stage.add_material();
   material.metallic = 0;
   stage.add(square(2, 0));
@@ -77,7 +77,7 @@ TEST_F(GpuRenderer, ASpotLightIsDarkOutsideItsConeAndFullInside) {
 }
 
 TEST_F(GpuRenderer, AWhiteDielectricVanishesInAUniformEnvironment) {
-  Stage stage;
+  TestScene stage;
   Material& material = stage.add_material();
   material.metallic = 0;
   material.roughness = 0.4f;
@@ -92,7 +92,7 @@ TEST_F(GpuRenderer, AWhiteDielectricVanishesInAUniformEnvironment) {
 }
 
 TEST_F(GpuRenderer, AMaskKeepsWhatReachesTheCutoff) {
-  Stage stage;
+  TestScene stage;
   Grid<u8vec4> image(3, 1, u8vec4(255));
   image(0, 0).w = 127;
   image(1, 0).w = 128;
@@ -112,7 +112,7 @@ TEST_F(GpuRenderer, AMaskKeepsWhatReachesTheCutoff) {
 }
 
 TEST_F(GpuRenderer, BlendedLayersAreSortedAndDrawnOver) {
-  Stage stage;
+  TestScene stage;
   stage.add_unlit(vec4(1, 0, 0, 0.5f)).alpha_mode = AlphaMode::blend;
   stage.add_unlit(vec4(0, 1, 0, 0.25f)).alpha_mode = AlphaMode::blend;
   stage.add_unlit(vec4(0, 0, 1, 1));
@@ -132,7 +132,7 @@ TEST_F(GpuRenderer, BlendedLayersAreSortedAndDrawnOver) {
 }
 
 TEST_F(GpuRenderer, AMirroredSquareStillFacesTheViewerAndATurnedOneDoesNot) {
-  Stage stage;
+  TestScene stage;
   stage.add_unlit(vec4(1));
   dmat4 mirror(1.0);
   mirror[0][0] = -1;
@@ -147,7 +147,7 @@ TEST_F(GpuRenderer, AMirroredSquareStillFacesTheViewerAndATurnedOneDoesNot) {
 }
 
 TEST_F(GpuRenderer, BlendedBackFacesAreCulledUnlessDoubleSided) {
-  Stage stage;
+  TestScene stage;
   stage.add_unlit(vec4(1, 1, 1, 0.5f)).alpha_mode = AlphaMode::blend;
   dmat4 turn(1.0);
   turn[0][0] = turn[2][2] = -1;
@@ -163,7 +163,7 @@ TEST_F(GpuRenderer, BlendedBackFacesAreCulledUnlessDoubleSided) {
 }
 
 TEST_F(GpuRenderer, TheBackOfADoubleSidedSquareIsLitLikeTheFront) {
-  Stage stage;
+  TestScene stage;
   Material& material = stage.add_material();
   material.metallic = 0;
   material.double_sided = true;
@@ -175,7 +175,7 @@ TEST_F(GpuRenderer, TheBackOfADoubleSidedSquareIsLitLikeTheFront) {
 }
 
 TEST_F(GpuRenderer, EverySampleCountShowsAFullSquareAlike) {
-  Stage stage;
+  TestScene stage;
   Material& material = stage.add_material();
   material.base_color = vec4(0.2f, 0.5f, 0.9f, 1);
   stage.add(square(2, 0));
@@ -196,7 +196,7 @@ TEST_F(GpuRenderer, AnEdgeIsCoveredByTheShareOfItsSamples) {
   // The right half of a pixel column: x > 0 covers the sample places with x > 1/2 of pixel 16.
   const std::array<std::pair<int, double>, 4> shares{{{1, 1.0}, {2, 0.5}, {4, 0.5}, {8, 0.5}}};
   for (const auto& [samples, share] : shares) {
-    Stage stage;
+    TestScene stage;
     stage.add_unlit(vec4(1));
     parity::Primitive primitive = square(2, 0);
     primitive.positions[0].x = primitive.positions[3].x = 0;
@@ -210,7 +210,7 @@ TEST_F(GpuRenderer, AnEdgeIsCoveredByTheShareOfItsSamples) {
 }
 
 TEST_F(GpuRenderer, DepthFollowsItsConvention) {
-  Stage stage;
+  TestScene stage;
   stage.add_unlit(vec4(1));
   stage.add(square(2, 0));
   const double n = 1;
@@ -229,7 +229,7 @@ TEST_F(GpuRenderer, DepthFollowsItsConvention) {
 
 TEST_F(GpuRenderer, TheNearerSquareIsSeenInEveryDepthMode) {
   for (const DepthMode mode : {DepthMode::standard, DepthMode::reverse_z, DepthMode::logarithmic}) {
-    Stage stage;
+    TestScene stage;
     stage.add_unlit(vec4(1, 0, 0, 1));
     stage.add_unlit(vec4(0, 1, 0, 1));
     stage.add(square(2, -1, 0));
@@ -243,7 +243,7 @@ TEST_F(GpuRenderer, TheNearerSquareIsSeenInEveryDepthMode) {
 }
 
 TEST_F(GpuRenderer, OfEqualDepthsTheFirstIsKept) {
-  Stage stage;
+  TestScene stage;
   stage.add_unlit(vec4(1, 0, 0, 1)).alpha_mode = AlphaMode::mask;
   stage.add_unlit(vec4(0, 1, 0, 1)).double_sided = true;
   stage.add(square(2, 0, 1));
@@ -253,7 +253,7 @@ TEST_F(GpuRenderer, OfEqualDepthsTheFirstIsKept) {
 
 TEST_F(GpuRenderer, PointsAndLinesShowTheirBaseColour) {
   for (const int samples : {1, 2, 4}) {
-    Stage stage;
+    TestScene stage;
     stage.add_material().base_color = vec4(1, 0.5f, 0.25f, 1);
     parity::Primitive points;
     points.topology = Topology::points;
@@ -283,7 +283,7 @@ TEST_F(GpuRenderer, PointsAndLinesShowTheirBaseColour) {
 }
 
 TEST_F(GpuRenderer, SingularAndOutOfViewPlacesDrawNothingAndHarmNothing) {
-  Stage stage;
+  TestScene stage;
   Material& material = stage.add_material();
   material.double_sided = true;
   stage.add(square(2, 0), dmat4(0.0));
@@ -302,7 +302,7 @@ TEST_F(GpuRenderer, SingularAndOutOfViewPlacesDrawNothingAndHarmNothing) {
 }
 
 TEST_F(GpuRenderer, FramesOfOneRendererAreEqualBitByBit) {
-  Stage stage;
+  TestScene stage;
   stage.add_material();
   stage.add(square(0.7f, 0));
   stage.add_light(directional(1));
@@ -318,7 +318,7 @@ TEST_F(GpuRenderer, FramesOfOneRendererAreEqualBitByBit) {
 }
 
 TEST_F(GpuRenderer, HalfPrecisionEndsAtItsLargestNumber) {
-  Stage stage;
+  TestScene stage;
   stage.add_unlit(vec4(1e9f, 1, 0.333333343f, 1));
   stage.add(square(2, 0));
   const vec4 got = middle(stage.render({.elements = false, .full_float = false}));
@@ -329,7 +329,7 @@ TEST_F(GpuRenderer, HalfPrecisionEndsAtItsLargestNumber) {
 
 TEST_F(GpuRenderer, ComputeKernelsAndPipelineAgreeInTheMiddleOfTriangles) {
   for (const DepthMode mode : {DepthMode::standard, DepthMode::reverse_z, DepthMode::logarithmic}) {
-    Stage stage = everything();
+    TestScene stage = everything();
     stage.options.depth = mode;
     const Picture pipeline = stage.render({.elements = true, .full_float = true});
     stage.options.samples = 8;
@@ -353,7 +353,7 @@ TEST_F(GpuRenderer, ComputeKernelsAndPipelineAgreeInTheMiddleOfTriangles) {
 }
 
 TEST_F(GpuRenderer, EverythingAtOnceIsFinite) {
-  Stage stage = everything();
+  TestScene stage = everything();
   for (const int samples : {1, 4, 8}) {
     stage.options.samples = samples;
     const Picture picture = stage.render({.elements = false, .full_float = false});
@@ -364,7 +364,7 @@ TEST_F(GpuRenderer, EverythingAtOnceIsFinite) {
 }
 
 TEST_F(GpuRenderer, LogarithmicDepthNeedsAFarPlane) {
-  Stage stage;
+  TestScene stage;
   stage.scene.cameras[0].far.reset();
   Frame frame = stage.frame();
   frame.options.depth = DepthMode::logarithmic;

@@ -4,13 +4,13 @@
 #include <array>
 #include <cmath>
 
-#include "tests/renderer_stage.h"
+#include "tests/renderer_scene.h"
 
 namespace parity {
 namespace {
 
 TEST_F(GpuRenderer, NearestTexelsAreDecodedFromSrgbExactly) {
-  Stage stage;
+  TestScene stage;
   Grid<u8vec4> image(3, 3, u8vec4(0, 0, 0, 255));
   image(0, 0) = u8vec4(255, 10, 188, 255);  // top left
   image(2, 1) = u8vec4(128, 64, 32, 255);
@@ -28,8 +28,8 @@ TEST_F(GpuRenderer, NearestTexelsAreDecodedFromSrgbExactly) {
 }
 
 /// Two texels, black and white, over a square that is 33 pixels wide; alpha stays linear.
-Stage ramp(Wrap wrap) {
-  Stage stage;
+TestScene ramp(Wrap wrap) {
+  TestScene stage;
   Grid<u8vec4> image(2, 1, u8vec4(255, 255, 255, 0));
   image(1, 0).w = 255;
   Sampler sampler = nearest();
@@ -59,7 +59,7 @@ TEST_F(GpuRenderer, LinearFilteringIsARampBetweenTexelCentres) {
 
 TEST_F(GpuRenderer, TextureCoordinatesBelowZeroAndAboveOneWrap) {
   for (const Wrap wrap : {Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge}) {
-    Stage stage;
+    TestScene stage;
     Grid<u8vec4> image(2, 1, u8vec4(0, 0, 0, 255));
     image(1, 0) = u8vec4(255);
     Sampler sampler = nearest();
@@ -81,7 +81,7 @@ TEST_F(GpuRenderer, TextureCoordinatesBelowZeroAndAboveOneWrap) {
 TEST_F(GpuRenderer, MipLevelsFollowTheFootprint) {
   // 64 texels over 16 pixels are two levels up exactly. There checks of 4 texels are checks of one
   // pixel, seen at their centres; one level further up all is grey.
-  Stage stage;
+  TestScene stage;
   Grid<u8vec4> image(64, 64);
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x) image(x, y) = u8vec4(255, 255, 255, (x / 4 + y / 4) % 2 * 255);
@@ -108,7 +108,7 @@ TEST_F(GpuRenderer, MipLevelsFollowTheFootprint) {
 }
 
 TEST_F(GpuRenderer, ATextureTransformMovesTheTexture) {
-  Stage stage;
+  TestScene stage;
   Grid<u8vec4> image(2, 2, u8vec4(0, 0, 0, 255));
   image(1, 0) = u8vec4(255);
   Sampler sampler = nearest();
@@ -129,9 +129,9 @@ TEST_F(GpuRenderer, ANormalMapActsAsTiltedNormals) {
   const u8vec4 texel(190, 180, 220, 255);
   const vec3 n = 2.0f * vec3(texel) / 255.0f - 1.0f;
   for (const double sign : {1.0, -1.0}) {
-    Stage mapped;
-    Stage tilted;
-    for (Stage* stage : {&mapped, &tilted}) {
+    TestScene mapped;
+    TestScene tilted;
+    for (TestScene* stage : {&mapped, &tilted}) {
       Material& material = stage->add_material();
       material.roughness = 0.6f;
       material.base_color = vec4(0.9f, 0.6f, 0.3f, 1);
@@ -158,7 +158,7 @@ TEST_F(GpuRenderer, ANormalMapActsAsTiltedNormals) {
 // compilers order the sums of a shorter shader anew: roundings on either side, nothing else.
 TEST_F(GpuRenderer, WhatTheSceneLacksChangesNothingWhenItIsLeftOut) {
   for (int lacking = 0; lacking < 7; ++lacking) {
-    Stage stage = everything();
+    TestScene stage = everything();
     for (Material& m : stage.scene.materials) {
       if (lacking >= 1) m.normal_texture = {};
       if (lacking >= 2) m.metallic_roughness_texture = {};

@@ -28,11 +28,11 @@ inline parity::Primitive square(float size, float z, int material = 0) {
 }
 
 /// A scene seen from (0, 0, 5) along -z: at z = 0 the picture shows [-1, 1]^2.
-struct Stage {
+struct TestScene {
   Scene scene;
   FrameOptions options;
 
-  Stage() {
+  TestScene() {
     Camera camera;
     camera.vertical_fov = 2 * std::atan(0.2);
     camera.near = 1;
@@ -126,8 +126,8 @@ class GpuRenderer : public testing::Test {
 
 /// Everything at once: textures, a normal map, colours, a mask, blending, a turned and a mirrored
 /// square, all parallel, so that nothing pierces anything.
-inline Stage everything() {
-  Stage stage;
+inline TestScene everything() {
+  TestScene stage;
   Grid<u8vec4> image(8, 8);
   for (int y = 0; y < 8; ++y)
     for (int x = 0; x < 8; ++x) image(x, y) = u8vec4(100 + 15 * x, 120 + 10 * y, 250, 20 * (x + y));
