@@ -90,7 +90,6 @@ struct FluidParameters {
   double courant = 0.9;               ///< cells that the fastest fluid crosses in a step
   double fixed_step = 0;              ///< s; 0: adaptive
   double max_step = 0.05;             ///< s, of an adaptive step
-  double step_error = 0;              ///< m/s, local error that an adaptive step may make; 0: any
   double divergence = 1e-3;           ///< 1/s, largest that the projection may leave
   std::uint32_t max_iterations = 30;  ///< of the pressure solver, a projection
 };

@@ -66,7 +66,6 @@ void check_parameters(const FluidParameters& p) {
   require_positive("courant", p.courant);
   require_at_least("fixed_step", p.fixed_step, 0);
   require_positive("max_step", p.max_step);
-  require_at_least("step_error", p.step_error, 0);
   require_positive("divergence", p.divergence);
   require(p.max_iterations >= 1 && p.max_iterations <= 10000,
           "max_iterations is " + std::to_string(p.max_iterations) + ", must be 1 to 10000");

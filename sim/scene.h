@@ -91,7 +91,6 @@ struct SimSolver {
   std::optional<double> courant;      ///< none: the method's own
   std::optional<double> max_step;     ///< s
   std::optional<double> sound_speed;  ///< m/s, wcsph; none: ten times that of the fall
-  double step_error = 0;              ///< grids: m/s, local error that a step may make; 0: any
   double artificial_viscosity = 0.1;  ///< wcsph, dfsph
   double flip_ratio = 0.97;           ///< flip: 0 is PIC, 1 is FLIP
 

@@ -244,7 +244,7 @@ void read_solver(const Node& root, SimSolver& solver) {
   if (!root.has("solver")) return;
   const Node node = root.at("solver");
   node.expect_keys({"advection", "divergence", "density_error", "courant", "max_step",
-                    "sound_speed", "step_error", "artificial_viscosity", "flip_ratio"});
+                    "sound_speed", "artificial_viscosity", "flip_ratio"});
   if (node.has("advection"))
     solver.advection =
         node.at("advection")
@@ -254,7 +254,6 @@ void read_solver(const Node& root, SimSolver& solver) {
   node.read("courant", solver.courant, {1e-3, 20});
   node.read("max_step", solver.max_step, {1e-7, 10});
   node.read("sound_speed", solver.sound_speed, {1e-3, 1e5});
-  node.read("step_error", solver.step_error, {0, 1e3});
   node.read("artificial_viscosity", solver.artificial_viscosity, {0, 10});
   node.read("flip_ratio", solver.flip_ratio, {0, 1});
 }
@@ -389,8 +388,8 @@ std::string physics_text(const SimScene& scene) {
                 f.vorticity_confinement}},
               {"solver",
                {int(s.advection), s.divergence, s.density_error, optional_json(s.courant),
-                optional_json(s.max_step), optional_json(s.sound_speed), s.step_error,
-                s.artificial_viscosity, s.flip_ratio}},
+                optional_json(s.max_step), optional_json(s.sound_speed), s.artificial_viscosity,
+                s.flip_ratio}},
               {"start", int(scene.start)},
               {"liquid", bodies_json(scene.liquid)},
               {"solids", bodies_json(scene.solids)},

@@ -33,7 +33,6 @@ struct SphParameters {
   double sound_speed = 20;            ///< m/s; ten times the largest speed gives 1 % compression
   double artificial_viscosity = 0.1;  ///< alpha of Monaghan 1992
   double viscosity = 0;               ///< m^2/s, kinematic
-  bool implicit_viscosity = false;    ///< solve for the viscous velocity instead of stepping
   double surface_tension = 0;         ///< kappa of Becker & Teschner 2007 per volume, 1/s^2
   dvec3 gravity{0, -9.81, 0};         ///< m/s^2
   double courant = 0.5;    ///< fraction of the stable step that an adaptive step takes, in (0, 1]

@@ -63,7 +63,6 @@ FluidParameters parameters_of(const SimScene& scene) {
   p.flip_ratio = scene.solver.flip_ratio;
   p.courant = scene.solver.courant.value_or(p.courant);
   p.max_step = scene.solver.max_step.value_or(p.max_step);
-  p.step_error = scene.solver.step_error;
   p.divergence = scene.solver.divergence;
   return p;
 }

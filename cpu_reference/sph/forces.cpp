@@ -27,10 +27,8 @@ dvec3 friction(const SphParameters& p, const Pair& pair, double mass, double den
   const double h = p.support / 2;
   const double along = glm::dot(pair.velocity, pair.apart);
   const double squares = pair.distance * pair.distance + 0.01 * h * h;
-  dvec3 result(0);
-  if (!p.implicit_viscosity)
-    result +=
-        2.0 * (p.dimensions + 2) * p.viscosity * mass / density * along / squares * pair.gradient;
+  dvec3 result =
+      2.0 * (p.dimensions + 2) * p.viscosity * mass / density * along / squares * pair.gradient;
   if (along < 0 && p.method == SphMethod::weakly_compressible) {
     const double mu = h * along / squares;
     result += mass * p.artificial_viscosity * p.sound_speed * mu / density * pair.gradient;

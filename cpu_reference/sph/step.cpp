@@ -23,7 +23,7 @@ Rates rates_of(const SphParameters& p, const dvec3& k) {
   const int reach_z = p.dimensions == 3 ? reach : 0;
   const double volume = std::pow(p.spacing, int(p.dimensions));
   const double h = p.support / 2;
-  const double nu = p.implicit_viscosity ? 0 : 2.0 * (p.dimensions + 2) * p.viscosity;
+  const double nu = 2.0 * (p.dimensions + 2) * p.viscosity;
   dvec3 wave(0);
   dmat3 friction(0);
   for (int z = -reach_z; z <= reach_z; ++z)

@@ -105,7 +105,7 @@ SphConstants sph_constants(const SphProblem& problem) {
   const double d = p.dimensions;
   const double volume = std::pow(p.spacing, d);
   const double scale = normalisation(p.kernel, p.dimensions == 3) / std::pow(p.support, d);
-  const double laminar = p.implicit_viscosity ? 0 : 2 * (d + 2) * p.viscosity;
+  const double laminar = 2 * (d + 2) * p.viscosity;
   const bool stiff = p.method == SphMethod::weakly_compressible;
   const double sound = stiff ? p.sound_speed : 0;
   const double artificial = p.artificial_viscosity * sound * p.support / 2;
