@@ -140,7 +140,7 @@ Frame make_frame(const Scene& scene, const FrameOptions& options) {
       frame.draws.push_back(draw);
     }
   }
-  if (frame.lights.empty()) add_default_light(frame, placed.world_from_view);
+  if (frame.lights.empty() && options.key_light) add_default_light(frame, placed.world_from_view);
   if (options.environment) frame.ambient = *options.environment;
   return frame;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/environment.h"
 #include "geometry/scene.h"
 
 namespace parity {
@@ -20,6 +21,7 @@ struct FrameOptions {
   /// Radiance of a uniform environment, linear RGB, W/(m^2 sr). None: 0 where the scene has lights,
   /// else enough to see by, together with a key light.
   std::optional<vec3> environment;
+  bool key_light = true;  ///< where the scene has no lights
 };
 
 /// One primitive in one place.
@@ -53,6 +55,8 @@ struct Frame {
   std::vector<Draw> draws;  ///< in the order of the scene
   std::vector<PlacedLight> lights;
   vec3 ambient{0.0f};  ///< radiance of the uniform environment, linear RGB, W/(m^2 sr)
+  /// Stands in for the uniform one. Both renderers shade with these same numbers.
+  std::optional<EnvironmentLight> environment;
 };
 
 /// Places everything. Without a camera: framing_camera. Without a

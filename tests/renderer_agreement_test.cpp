@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
+#include "geometry/environment.h"
 #include "geometry/input_error.h"
 #include "geometry/scene_io.h"
 #include "gpu/raster/renderer.h"
+#include "gpu/shading/prefilter.h"
 #include "tests/gpu_context.h"
 #include "tests/raster/agreement.h"
 #include "tests/shared_data.h"
@@ -55,6 +57,41 @@ TEST_P(RenderersAgree, OnEveryJudgedPixel) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, RenderersAgree, testing::ValuesIn(scene_files()), test_name);
+
+/// Bands of colour and a lamp.
+Grid<vec4> lamp_and_sky() {
+  Grid<vec4> picture{64, 32};
+  for (int y = 0; y < 32; ++y)
+    for (int x = 0; x < 64; ++x)
+      picture(x, y) = vec4(0.2f + 0.02f * float(32 - y), 0.3f, 0.1f + 0.01f * float(x), 1);
+  for (int y = 6; y < 10; ++y)
+    for (int x = 20; x < 26; ++x) picture(x, y) = vec4(20, 18, 15, 1);
+  return picture;
+}
+
+TEST(RendererAgreement, HoldsUnderAnEnvironment) {
+  const Scene scene = load_scene(fs::path(PARITY_SOURCE_DIR) / "assets/sphere_grid.glb");
+  Frame frame = make_frame(scene, {.width = 149, .height = 101, .key_light = false});
+  frame.environment = gpu::prefilter(test_context(), environment_map(lamp_and_sky(), 64), 16);
+  const raster_test::Agreement agreement =
+      raster_test::draw_and_compare(test_context(), scene, frame);
+  EXPECT_EQ(agreement.wrong(), 0u) << agreement.text();
+}
+
+TEST(RendererAgreement, AWhiteFurnaceShowsNoWhiteMetal) {
+  Scene scene = load_scene(fs::path(PARITY_SOURCE_DIR) / "assets/sphere_grid.glb");
+  for (Material& m : scene.materials) {
+    m.base_color = vec4(1);
+    m.metallic = 1;
+  }
+  const Frame frame =
+      make_frame(scene, {.width = 149, .height = 101, .environment = vec3(1), .key_light = false});
+  const Picture device = gpu::render(test_context(), scene, frame);
+  const Picture host = cpu::render(scene, frame).picture;
+  for (const Picture* picture : {&device, &host})
+    for (const vec4& c : picture->color)
+      EXPECT_TRUE(c.w == 0 || glm::length(vec3(c) - vec3(1)) < 0.01f) << c.x;
+}
 
 TEST(RendererAgreement, FailsForAShiftedPicture) {
   const Scene scene = load_scene(fs::path(PARITY_SOURCE_DIR) / "assets/demo.glb");

@@ -394,14 +394,14 @@ double edge_error(const Picture& picture, const Grid<vec4>& truth) {
 
 TEST(Antialiasing, MoreSamplesComeCloserToTheMeanOfManyFrames) {
   const Scene scene = turned_quad();
-  const FrameOptions options{.width = 40, .height = 40, .background = {0, 0, 0, 1}};
+  const Frame frame = make_frame(scene, {.width = 40, .height = 40, .background = {0, 0, 0, 1}});
   gpu::Context& context = test_context();
   const auto error = [&, truth =
-                             tools::render_antialiased(context, scene, options,
+                             tools::render_antialiased(context, scene, frame,
                                                        tools::parse_antialiasing("accumulate64"), 0)
                                  .picture.color](const char* mode) {
     return edge_error(
-        tools::render_antialiased(context, scene, options, tools::parse_antialiasing(mode), 0)
+        tools::render_antialiased(context, scene, frame, tools::parse_antialiasing(mode), 0)
             .picture,
         truth);
   };
@@ -437,10 +437,11 @@ Scene crossing_sheets() {
 
 TEST(Antialiasing, MsaaTestsDepthAtEachSampleNotCoverageOnly) {
   const Scene scene = crossing_sheets();
-  const FrameOptions options{.width = 32, .height = 32, .background = {0.5f, 0.5f, 0.5f, 1}};
+  const Frame frame =
+      make_frame(scene, {.width = 32, .height = 32, .background = {0.5f, 0.5f, 0.5f, 1}});
   const auto render = [&](const char* mode) {
-    return tools::render_antialiased(test_context(), scene, options,
-                                     tools::parse_antialiasing(mode), 0)
+    return tools::render_antialiased(test_context(), scene, frame, tools::parse_antialiasing(mode),
+                                     0)
         .picture.color;
   };
   const Grid<vec4> truth = render("accumulate64");
@@ -461,20 +462,20 @@ TEST(Antialiasing, MsaaTestsDepthAtEachSampleNotCoverageOnly) {
 
 TEST(Antialiasing, BothSidesAccumulateTheSamePicture) {
   const Scene scene = turned_quad();
-  const FrameOptions options{.width = 24, .height = 24, .background = {0, 0, 0, 1}};
+  const Frame frame = make_frame(scene, {.width = 24, .height = 24, .background = {0, 0, 0, 1}});
   const tools::Antialiasing mode = tools::parse_antialiasing("accumulate4");
-  const Picture device = tools::render_antialiased(test_context(), scene, options, mode, 0).picture;
-  const Picture host = tools::render_antialiased(scene, options, mode).picture;
+  const Picture device = tools::render_antialiased(test_context(), scene, frame, mode, 0).picture;
+  const Picture host = tools::render_antialiased(scene, frame, mode).picture;
   // White and black are exact in half precision; a quarter's weight too.
   EXPECT_EQ(device.color, host.color);
 }
 
 TEST(Antialiasing, AutoTakesTheFastestThatMeetsTheError) {
   const Scene scene = turned_quad();
-  const FrameOptions options{.width = 24, .height = 24, .background = {0, 0, 0, 1}};
+  const Frame frame = make_frame(scene, {.width = 24, .height = 24, .background = {0, 0, 0, 1}});
   const auto choose = [&](double max_error) {
     return tools::render_antialiased(
-        test_context(), scene, options,
+        test_context(), scene, frame,
         {.kind = tools::Antialiasing::Kind::automatic, .max_error = max_error}, 0);
   };
   const tools::Antialiased loose = choose(1);

@@ -41,13 +41,22 @@ std::vector<dvec2> shifts_of(int frames) {
   return shifts;
 }
 
-FrameOptions with_samples(FrameOptions options, int samples) {
-  options.samples = samples;
-  return options;
+/// The same view with other options.
+Frame remade(const Scene& scene, const Frame& frame, const FrameOptions& options) {
+  Frame result = make_frame(scene, options);
+  result.environment = frame.environment;
+  return result;
 }
 
-FrameOptions enlarged(FrameOptions options, int samples) {
+Frame with_samples(const Scene& scene, const Frame& frame, int samples) {
+  FrameOptions options = frame.options;
+  options.samples = samples;
+  return remade(scene, frame, options);
+}
+
+Frame enlarged(const Scene& scene, const Frame& frame, int samples) {
   const int factor = root_of(samples);
+  FrameOptions options = frame.options;
   options.samples = 1;
   if (options.width > 16384 / factor || options.height > 16384 / factor)
     throw std::invalid_argument("--aa ssaa" + std::to_string(samples) + " makes a picture of " +
@@ -56,33 +65,31 @@ FrameOptions enlarged(FrameOptions options, int samples) {
                                 ", sides must be at most 16384");
   options.width *= factor;
   options.height *= factor;
-  return options;
+  return remade(scene, frame, options);
 }
 
 /// One scene by any mode.
 class Device {
  public:
-  Device(gpu::Context& context, const Scene& scene, const FrameOptions& options, double exposure)
-      : context_(context), scene_(scene), options_(options), gain_(std::exp2(float(exposure))) {}
+  Device(gpu::Context& context, const Scene& scene, const Frame& frame, double exposure)
+      : context_(context), scene_(scene), frame_(frame), gain_(std::exp2(float(exposure))) {}
 
   Picture render(const Antialiasing& mode) {
     switch (mode.kind) {
       case Kind::ssaa: {
-        Picture picture =
-            gpu::render(context_, scene_, make_frame(scene_, enlarged(options_, mode.samples)));
-        picture.color = gpu::reconstruct(context_, picture.color, {options_.width, options_.height},
-                                         ReconstructionFilter::box);
+        Picture picture = gpu::render(context_, scene_, enlarged(scene_, frame_, mode.samples));
+        picture.color =
+            gpu::reconstruct(context_, picture.color, {frame_.options.width, frame_.options.height},
+                             ReconstructionFilter::box);
         return picture;
       }
       case Kind::accumulate:
-        return antialiaser().accumulate(make_frame(scene_, with_samples(options_, 1)),
-                                        shifts_of(mode.samples));
+        return antialiaser().accumulate(with_samples(scene_, frame_, 1), shifts_of(mode.samples));
       case Kind::adaptive:
-        return antialiaser().adaptive(make_frame(scene_, with_samples(options_, 1)),
-                                      adaptive_contrast, gain_);
+        return antialiaser().adaptive(with_samples(scene_, frame_, 1), adaptive_contrast, gain_);
       default:
         if (!renderer_) renderer_.emplace(context_, scene_);
-        return renderer_->render(make_frame(scene_, with_samples(options_, mode.samples)));
+        return renderer_->render(with_samples(scene_, frame_, mode.samples));
     }
   }
 
@@ -127,7 +134,7 @@ class Device {
 
   gpu::Context& context_;
   const Scene& scene_;
-  FrameOptions options_;
+  const Frame& frame_;
   float gain_;
   std::optional<gpu::Renderer> renderer_;
   std::optional<gpu::Antialiaser> antialiaser_;
@@ -183,29 +190,26 @@ std::string name_of(const Antialiasing& mode) {
   }
 }
 
-Antialiased render_antialiased(gpu::Context& context, const Scene& scene,
-                               const FrameOptions& options, const Antialiasing& mode,
-                               double exposure) {
-  Device device(context, scene, options, exposure);
+Antialiased render_antialiased(gpu::Context& context, const Scene& scene, const Frame& frame,
+                               const Antialiasing& mode, double exposure) {
+  Device device(context, scene, frame, exposure);
   if (mode.kind == Kind::automatic) return device.choose(mode.max_error);
   return {.picture = device.render(mode), .mode = name_of(mode), .trials = {}};
 }
 
-Antialiased render_antialiased(const Scene& scene, const FrameOptions& options,
-                               const Antialiasing& mode) {
+Antialiased render_antialiased(const Scene& scene, const Frame& frame, const Antialiasing& mode) {
   Antialiased result{.picture = {}, .mode = name_of(mode), .trials = {}};
   if (mode.kind == Kind::msaa) {
-    result.picture =
-        cpu::render(scene, make_frame(scene, with_samples(options, mode.samples))).picture;
+    result.picture = cpu::render(scene, with_samples(scene, frame, mode.samples)).picture;
   } else if (mode.kind == Kind::accumulate) {
-    result.picture =
-        mean_of_frames(scene, make_frame(scene, with_samples(options, 1)), mode.samples);
+    result.picture = mean_of_frames(scene, with_samples(scene, frame, 1), mode.samples);
   } else if (mode.kind == Kind::ssaa) {
-    result.picture = cpu::render(scene, make_frame(scene, enlarged(options, mode.samples))).picture;
+    result.picture = cpu::render(scene, enlarged(scene, frame, mode.samples)).picture;
+    const ivec2 size{frame.options.width, frame.options.height};
     Grid<dvec4> wide{result.picture.color.width(), result.picture.color.height()};
     std::copy(result.picture.color.begin(), result.picture.color.end(), wide.begin());
-    wide = cpu::reconstruct(wide, {options.width, options.height}, ReconstructionFilter::box);
-    result.picture.color = {options.width, options.height};
+    wide = cpu::reconstruct(wide, size, ReconstructionFilter::box);
+    result.picture.color = {size.x, size.y};
     std::copy(wide.begin(), wide.end(), result.picture.color.begin());
   } else {
     throw std::invalid_argument("--aa " + result.mode + " is of --backend gpu only");

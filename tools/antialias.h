@@ -40,18 +40,17 @@ struct Antialiased {
   bool meets = true;                      ///< automatic: the error is met
 };
 
-/// Renders a frame; `frame.options.samples` gives way to the mode.
+/// Renders a frame anew; its sample count gives way to the mode.
 ///
+/// @param frame     of the scene.
 /// @param exposure  stops, for what looks at what a screen shows.
 /// @throws std::invalid_argument  a picture too large for ssaa.
-Antialiased render_antialiased(gpu::Context& context, const Scene& scene,
-                               const FrameOptions& options, const Antialiasing& mode,
-                               double exposure);
+Antialiased render_antialiased(gpu::Context& context, const Scene& scene, const Frame& frame,
+                               const Antialiasing& mode, double exposure);
 
 /// The same by the reference.
 ///
 /// @throws std::invalid_argument  also: adaptive and automatic, which it does not do.
-Antialiased render_antialiased(const Scene& scene, const FrameOptions& options,
-                               const Antialiasing& mode);
+Antialiased render_antialiased(const Scene& scene, const Frame& frame, const Antialiasing& mode);
 
 }  // namespace parity::tools

@@ -11,14 +11,19 @@
 
 #include "cpu_reference/raster/renderer.h"
 #include "cpu_reference/raster/srgb.h"
+#include "cpu_reference/shading/prefilter.h"
+#include "cpu_reference/shading/tone_map.h"
 #include "geometry/atomic_file.h"
 #include "geometry/color.h"
+#include "geometry/environment.h"
 #include "geometry/frame.h"
 #include "geometry/image_io.h"
 #include "geometry/scene_io.h"
 #include "gpu/core/context.h"
 #include "gpu/raster/encode_srgb.h"
 #include "gpu/raster/renderer.h"
+#include "gpu/shading/prefilter.h"
+#include "gpu/shading/tone_map.h"
 #include "tools/antialias.h"
 #include "tools/progress.h"
 #include "tools/verb.h"
@@ -33,10 +38,11 @@ struct RenderArguments {
   std::string camera;
   std::string backend = "gpu";
   std::string device;
-  std::string background = "#2b2f36";
+  std::string background;
   std::string depth = "reverse";
   std::string metrics;
   std::string environment;
+  std::string tone_map = "neutral";
   double exposure = 0;
   int msaa = 4;
   std::string aa;
@@ -68,10 +74,12 @@ ivec2 parse_size(const std::string& text) {
   return {width, height};
 }
 
-/// "#rrggbb" or "#rrggbbaa" in sRGB, "r,g,b" or "r,g,b,a" in linear light, or "transparent".
+/// "#rrggbb" or "#rrggbbaa" in sRGB, "r,g,b" or "r,g,b,a" in linear light, or "transparent"; empty:
+/// a dark grey.
 vec4 parse_background(const std::string& text) {
   const char* expected = "'transparent', '#rrggbb', '#rrggbbaa' (sRGB) or 'r,g,b[,a]' (linear)";
   if (text == "transparent") return vec4(0.0f);
+  if (text.empty()) return parse_background("#2b2f36");
   if (!text.empty() && text[0] == '#') {
     if ((text.size() != 7 && text.size() != 9) ||
         text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
@@ -93,9 +101,15 @@ vec4 parse_background(const std::string& text) {
   return color;
 }
 
-/// "l" or "r,g,b", linear and not negative.
+/// Does it name a file? Numbers, commas and signs alone are a radiance.
+bool names_a_file(const std::string& environment) {
+  return environment.find_first_not_of("0123456789.,eE+-") != std::string::npos;
+}
+
+/// "l" or "r,g,b", linear and not negative; nothing for a file.
 std::optional<vec3> parse_environment(const std::string& text) {
   if (text.empty()) return std::nullopt;
+  if (names_a_file(text)) return vec3(0.0f);
   vec3 color{0.0f};
   char rest = 0;
   const int count = std::sscanf(text.c_str(), "%f,%f,%f%c", &color.x, &color.y, &color.z, &rest);
@@ -104,7 +118,8 @@ std::optional<vec3> parse_environment(const std::string& text) {
       (count == 1 && text.find_first_not_of("0123456789.eE+-") == std::string::npos) || count == 3;
   for (int i = 0; i < 3; ++i)
     if (!right || !(color[i] >= 0) || !std::isfinite(color[i]))
-      throw bad_option("environment", text, "a radiance 'l' or 'r,g,b', linear and not negative");
+      throw bad_option("environment", text,
+                       "a picture's file, or a radiance 'l' or 'r,g,b', linear and not negative");
   return color;
 }
 
@@ -114,10 +129,27 @@ DepthMode parse_depth(const std::string& text) {
   return DepthMode::reverse_z;
 }
 
+ToneMap parse_tone_map(const std::string& text) {
+  if (text == "neutral") return ToneMap::neutral;
+  if (text == "aces") return ToneMap::aces;
+  return text == "agx" ? ToneMap::agx : ToneMap::clamp;
+}
+
 /// A colour over nothing is stored premultiplied; files hold straight colour.
 Grid<vec4> straight_alpha(Grid<vec4> color) {
   for (vec4& c : color)
     if (c.w > 0 && c.w < 1) c = vec4(vec3(c) / c.w, c.w);
+  return color;
+}
+
+/// Straight colours over a straight background.
+Grid<vec4> over(Grid<vec4> color, const vec4& background) {
+  for (vec4& c : color) {
+    const float behind = background.w * (1 - c.w);
+    const float alpha = c.w + behind;
+    const vec3 sum = vec3(c) * c.w + vec3(background) * behind;
+    c = vec4(alpha > 0 ? sum / alpha : vec3(0), alpha);
+  }
   return color;
 }
 
@@ -153,42 +185,100 @@ std::optional<Antialiasing> antialiasing(const RenderArguments& arguments) {
   return mode;
 }
 
-Job render_on_cpu(const RenderArguments& arguments, const Scene& scene, const Frame& frame,
-                  bool display) {
-  Progress progress{"rendering", 1000, arguments.quiet};
+/// Side of the largest level of an environment; samples of each texel of its rough mirrors.
+constexpr int environment_side = 256;
+constexpr int environment_samples = 128;
+
+std::optional<EnvironmentMap> load_environment(const std::string& text) {
+  if (text.empty() || !names_a_file(text)) return std::nullopt;
+  return environment_map(load_image(text), environment_side);
+}
+
+/// The way a pixel's centre looks, in the world.
+dvec3 view_direction(const Frame& frame, int x, int y) {
+  if (frame.orthographic) return -frame.backward;
+  const double u = 2 * (x + 0.5) / frame.options.width - 1;
+  const double v = 1 - 2 * (y + 0.5) / frame.options.height;
+  const dvec3 in_view{u / frame.clip_from_view[0][0], v / frame.clip_from_view[1][1], -1};
+  return glm::transpose(dmat3(frame.view_from_world)) * in_view;
+}
+
+/// Puts the environment behind all that is not opaque.
+void show_environment(const EnvironmentMap& map, const Frame& frame, Picture& picture) {
+#pragma omp parallel for
+  for (int y = 0; y < picture.color.height(); ++y)
+    for (int x = 0; x < picture.color.width(); ++x) {
+      vec4& c = picture.color(x, y);
+      if (c.w >= 1) continue;
+      const vec3 seen = radiance_toward(map, glm::normalize(view_direction(frame, x, y)));
+      c = vec4(vec3(c) + seen * (1 - c.w), 1);
+    }
+}
+
+/// What a job draws.
+struct Task {
+  const RenderArguments& arguments;
+  const Scene& scene;
+  Frame frame;
+  std::optional<EnvironmentMap> environment;
+  bool display = false;  ///< 8-bit output
+
+  bool shows_environment() const { return environment && arguments.background.empty(); }
+  void finish(Picture& picture) const {
+    if (shows_environment()) show_environment(*environment, frame, picture);
+  }
+};
+
+Job render_on_cpu(Task& task) {
+  const RenderArguments& a = task.arguments;
+  Progress progress{"rendering", 1000, a.quiet};
   Job job;
   job.device = "CPU reference";
   const double start = seconds_now();
-  if (const auto mode = antialiasing(arguments))
-    take(job, render_antialiased(scene, frame.options, *mode));
+  if (task.environment)
+    task.frame.environment = cpu::prefilter(*task.environment, environment_samples);
+  if (const auto mode = antialiasing(a))
+    take(job, render_antialiased(task.scene, task.frame, *mode));
   else
-    job.picture = cpu::render(scene, frame, {}, [&](double done) {
+    job.picture = cpu::render(task.scene, task.frame, {}, [&](double done) {
                     progress.set(std::size_t(1000 * done));
                   }).picture;
+  if (job.meets) task.finish(job.picture);
   job.seconds = seconds_now() - start;
-  if (display && job.meets)
-    job.display = cpu::encode_srgb(straight_alpha(job.picture.color), float(arguments.exposure));
+  if (task.display && job.meets)
+    job.display =
+        cpu::encode_srgb(over(cpu::tone_map(straight_alpha(job.picture.color),
+                                            parse_tone_map(a.tone_map), float(a.exposure)),
+                              parse_background(a.background)),
+                         0);
   return job;
 }
 
-Job render_on_gpu(const RenderArguments& arguments, const Scene& scene, const Frame& frame,
-                  bool display) {
-  gpu::Context context{{.device = arguments.device}};
+Job render_on_gpu(Task& task) {
+  const RenderArguments& a = task.arguments;
+  gpu::Context context{{.device = a.device}};
   Job job;
   job.device = context.info().name + ", " + context.info().driver;
-  if (!arguments.quiet && context.info().cuts_loops_short)
+  if (!a.quiet && context.info().cuts_loops_short)
     std::fprintf(stderr,
                  "parity: %s ends long shader loops early: large scenes may come out wrong\n",
                  context.info().driver.c_str());
   const double start = seconds_now();
-  if (const auto mode = antialiasing(arguments))
-    take(job, render_antialiased(context, scene, frame.options, *mode, arguments.exposure));
+  if (task.environment)
+    task.frame.environment = gpu::prefilter(context, *task.environment, environment_samples);
+  if (const auto mode = antialiasing(a))
+    take(job, render_antialiased(context, task.scene, task.frame, *mode, a.exposure));
   else
-    job.picture = gpu::render(context, scene, frame);
+    job.picture = gpu::render(context, task.scene, task.frame);
+  if (job.meets) task.finish(job.picture);
   job.seconds = seconds_now() - start;
-  if (display && job.meets)
+  if (task.display && job.meets)
     job.display =
-        gpu::encode_srgb(context, straight_alpha(job.picture.color), float(arguments.exposure));
+        gpu::encode_srgb(context,
+                         over(gpu::tone_map(context, straight_alpha(job.picture.color),
+                                            parse_tone_map(a.tone_map), float(a.exposure)),
+                              parse_background(a.background)),
+                         0);
   return job;
 }
 
@@ -267,13 +357,15 @@ void save(const RenderArguments& arguments, const Job& job) {
 int render(const RenderArguments& arguments) {
   check_output(arguments);
   antialiasing(arguments);
+  const bool display = std::filesystem::path(arguments.output).extension() == ".png";
   const ivec2 size = parse_size(arguments.size);
+  const vec4 background = parse_background(arguments.background);
   FrameOptions options{.width = size.x,
                        .height = size.y,
                        .samples = arguments.msaa,
                        .camera = arguments.camera,
                        .depth = parse_depth(arguments.depth),
-                       .background = parse_background(arguments.background),
+                       .background = background,
                        .environment = parse_environment(arguments.environment)};
   const double start = seconds_now();
   Scene scene = load_scene(arguments.input);
@@ -282,16 +374,18 @@ int render(const RenderArguments& arguments) {
   if (!arguments.quiet)
     for (const std::string& note : scene.notes)
       std::fprintf(stderr, "%s: %s\n", arguments.input.c_str(), note.c_str());
-  const Frame frame = make_frame(scene, options);
+  Task task{arguments, scene, {}, load_environment(arguments.environment), display};
+  if (display || task.shows_environment()) options.background = vec4(0);
+  options.key_light = !task.environment;
+  task.frame = make_frame(scene, options);
+  const Frame& frame = task.frame;
   if (arguments.dry_run) {
     std::printf("%s: fine, %zu draws, %zu lights, %zu materials, %zu images\n",
                 arguments.input.c_str(), frame.draws.size(), frame.lights.size(),
                 scene.materials.size(), scene.images.size());
     return 0;
   }
-  const bool display = std::filesystem::path(arguments.output).extension() == ".png";
-  const Job job = arguments.backend == "cpu" ? render_on_cpu(arguments, scene, frame, display)
-                                             : render_on_gpu(arguments, scene, frame, display);
+  const Job job = arguments.backend == "cpu" ? render_on_cpu(task) : render_on_gpu(task);
   if (!arguments.quiet || !job.meets) say_choice(arguments, job);
   if (!job.meets) return 3;
   save(arguments, job);
@@ -340,11 +434,17 @@ void add_render_verb(CLI::App& app, int& exit_code) {
   verb->add_option("--exposure", a->exposure, "Stops: +1 is twice as bright")
       ->check(CLI::Range(-64.0, 64.0))
       ->capture_default_str();
-  verb->add_option("--background", a->background, "#rrggbb[aa], linear r,g,b[,a], or transparent")
+  verb->add_option("--tone-map", a->tone_map,
+                   "How light becomes a .png: neutral (Khronos PBR Neutral), aces, agx, none")
+      ->check(CLI::IsMember({"neutral", "aces", "agx", "none"}))
       ->capture_default_str();
+  verb->add_option("--background", a->background,
+                   "#rrggbb[aa], linear r,g,b[,a], or transparent; neither exposed nor tone-mapped "
+                   "(default: the environment's picture, else #2b2f36)");
   verb->add_option(
       "--environment", a->environment,
-      "Radiance of a uniform environment, linear: l or r,g,b (default: 0 if the scene has lights)");
+      "A picture of the light from all around (equirectangular .hdr or .exr), or its radiance, "
+      "linear: l or r,g,b (default: 0 if the scene has lights)");
   verb->add_option("--depth", a->depth, "Depth buffer")
       ->check(CLI::IsMember({"reverse", "standard", "logarithmic"}))
       ->capture_default_str();
@@ -359,6 +459,7 @@ void add_render_verb(CLI::App& app, int& exit_code) {
       "  parity render assets/demo.glb -o demo.png\n"
       "  parity render bunny.ply -o bunny.png --size 1024x1024 --background transparent\n"
       "  parity render scene.gltf -o scene.exr --camera 1 --msaa 8 --metrics scene.json\n"
+      "  parity render scene.glb -o lit.png --environment studio.hdr --tone-map agx\n"
       "  parity render scene.glb -o reference.png --backend cpu\n"
       "  parity render scene.glb -o smooth.png --aa auto --max-error 0.002");
   verb->callback([a, &exit_code] {

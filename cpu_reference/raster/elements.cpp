@@ -170,7 +170,7 @@ void append(Elements& elements, Unsorted& blended, std::uint32_t draw,
             const std::vector<SnappedTriangle>& pieces, const Frame& frame) {
   const PlacedDraw& placed = elements.draws[draw];
   const bool blends = placed.primitive->topology == Topology::triangles &&
-                      placed.material->alpha_mode == AlphaMode::blend;
+                      is_blended(*placed.material);
   for (SnappedTriangle shape : pieces) {
     if (blends) blended.keys.push_back(painter_key(placed, shape.triangle, frame));
     shape.triangle += placed.first_element;

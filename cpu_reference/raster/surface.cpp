@@ -7,7 +7,7 @@
 namespace parity::cpu {
 namespace {
 
-bool stores_srgb(std::size_t slot) { return slot == slot_base_color || slot == slot_emission; }
+bool stores_srgb(std::size_t slot) { return is_srgb(TextureRole(slot)); }
 
 /// The materials that the draws of a frame use; -1 for the default material is left out.
 std::set<int> used_materials(const Frame& frame) {
@@ -54,8 +54,9 @@ std::array<dvec2, 3> transformed_uvs(const Primitive& p, const TextureUse& use,
 std::array<double, shading_input::count> white_inputs() {
   std::array<double, shading_input::count> inputs{};
   for (std::size_t i = shading_input::color; i < shading_input::count; ++i) inputs[i] = 1;
-  inputs[shading_input::normal_texture] = 0.5;
-  inputs[shading_input::normal_texture + 1] = 0.5;
+  for (const std::size_t map : {shading_input::normal_texture, shading_input::coat_normal_texture})
+    inputs[map] = inputs[map + 1] = 0.5;
+  inputs[shading_input::anisotropy_texture + 1] = 0.5;
   return inputs;
 }
 
@@ -67,18 +68,7 @@ void set_triple(std::array<double, shading_input::count>& inputs, std::size_t fi
 }  // namespace
 
 const TextureUse& texture_use(const Material& material, std::size_t slot) {
-  switch (slot) {
-    case slot_base_color:
-      return material.base_color_texture;
-    case slot_metallic_roughness:
-      return material.metallic_roughness_texture;
-    case slot_normal:
-      return material.normal_texture;
-    case slot_occlusion:
-      return material.occlusion_texture;
-    default:
-      return material.emission_texture;
-  }
+  return *textures_of(material)[slot];
 }
 
 SceneTextures::SceneTextures(const Scene& scene, const Frame& frame, double mip_error) {
@@ -166,23 +156,56 @@ TexturePlace texture_place(const ElementSurface& s, std::size_t slot, const Quad
 
 void set_texture_inputs(std::array<double, shading_input::count>& inputs, std::size_t slot,
                         const dvec4& value) {
-  switch (slot) {
-    case slot_base_color:
-      set_triple(inputs, shading_input::base_texture, dvec3(value));
-      inputs[shading_input::base_texture + 3] = value.w;
+  namespace input = shading_input;
+  const auto color = [&](std::size_t first) { set_triple(inputs, first, dvec3(value)); };
+  switch (TextureRole(slot)) {
+    case TextureRole::base_color:
+      color(input::base_texture);
+      inputs[input::base_texture + 3] = value.w;
       break;
-    case slot_metallic_roughness:
-      inputs[shading_input::roughness_texture] = value.y;
-      inputs[shading_input::metallic_texture] = value.z;
+    case TextureRole::metallic_roughness:
+      inputs[input::roughness_texture] = value.y;
+      inputs[input::metallic_texture] = value.z;
       break;
-    case slot_normal:
-      set_triple(inputs, shading_input::normal_texture, dvec3(value));
+    case TextureRole::normal:
+      return color(input::normal_texture);
+    case TextureRole::occlusion:
+      inputs[input::occlusion_texture] = value.x;
       break;
-    case slot_occlusion:
-      inputs[shading_input::occlusion_texture] = value.x;
+    case TextureRole::emission:
+      return color(input::emission_texture);
+    case TextureRole::specular:
+      inputs[input::specular_texture] = value.w;
       break;
-    default:
-      set_triple(inputs, shading_input::emission_texture, dvec3(value));
+    case TextureRole::specular_color:
+      return color(input::specular_color_texture);
+    case TextureRole::clearcoat:
+      inputs[input::clearcoat_texture] = value.x;
+      break;
+    case TextureRole::clearcoat_roughness:
+      inputs[input::coat_roughness_texture] = value.y;
+      break;
+    case TextureRole::clearcoat_normal:
+      return color(input::coat_normal_texture);
+    case TextureRole::sheen_color:
+      return color(input::sheen_color_texture);
+    case TextureRole::sheen_roughness:
+      inputs[input::sheen_roughness_texture] = value.w;
+      break;
+    case TextureRole::anisotropy:
+      return color(input::anisotropy_texture);
+    case TextureRole::iridescence:
+      inputs[input::iridescence_texture] = value.x;
+      break;
+    case TextureRole::iridescence_thickness:
+      inputs[input::film_thickness_texture] = value.y;
+      break;
+    case TextureRole::transmission:
+      inputs[input::transmission_texture] = value.x;
+      break;
+    case TextureRole::thickness:
+      inputs[input::thickness_texture] = value.y;
+      break;
   }
 }
 

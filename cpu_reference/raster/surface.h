@@ -13,15 +13,9 @@
 
 namespace parity::cpu {
 
-/// The textures of a material, in the order of TextureSlot. No levels: none.
-enum TextureSlot : std::size_t {
-  slot_base_color,
-  slot_metallic_roughness,
-  slot_normal,
-  slot_occlusion,
-  slot_emission,
-  slot_count
-};
+/// The textures of a material, by TextureRole. No levels: none.
+constexpr std::size_t slot_count = texture_role_count;
+constexpr std::size_t slot_base_color = std::size_t(TextureRole::base_color);
 using MaterialTextures = std::array<MippedTexture, slot_count>;
 
 /// How a material uses the texture in a slot.

@@ -28,31 +28,33 @@ double transform_error(const dmat3& linear, const dvec3& offset, const std::vect
   return 5 * half_ulp * largest;
 }
 
-/// Deviations of the interpolated inputs.
+/// Deviations of the interpolated inputs. Devices keep positions relative to the eye.
 Inputs varying_errors(const PlacedDraw& placed, std::uint32_t element, const ElementSurface& s,
-                      const ElementError& error, int x, int y) {
+                      const ElementError& error, const dvec3& eye, int x, int y) {
   Inputs e{};
   const Primitive& p = *placed.primitive;
   const auto vertices = element_vertices(placed, element);
   const dmat4& world = placed.draw->world_from_object;
   const bool lit = !s.material->unlit;
+  const std::array<dvec3, 3> relative{s.position[0] - eye, s.position[1] - eye,
+                                      s.position[2] - eye};
   for (int c = 0; c < 3 && lit; ++c) {
     const std::size_t i = std::size_t(c);
     e[shading_input::position + i] =
-        error.varying(component(s.position, c), x, y) +
-        transform_error(dmat3(world), dvec3(world[3]), p.positions, vertices, c);
+        error.varying(component(relative, c), x, y) +
+        transform_error(dmat3(world), dvec3(world[3]) - eye, p.positions, vertices, c);
     if (!p.normals.empty())
       e[shading_input::normal + i] = error.varying(component(s.normal, c), x, y) +
                                      transform_error(placed.draw->world_from_object_normal,
                                                      dvec3(0.0), p.normals, vertices, c);
-    if (!p.tangents.empty() && s.material->normal_texture.texture >= 0) {
+    if (!p.tangents.empty() && needs_tangents(*s.material)) {
       double longest = 0;
       for (const dvec3& t : s.tangent) longest = std::max(longest, glm::length(t));
       e[shading_input::tangent + i] =
           error.varying(component(s.tangent, c), x, y) + 5 * half_ulp * longest;
     }
   }
-  if (lit && !p.tangents.empty() && s.material->normal_texture.texture >= 0)
+  if (lit && !p.tangents.empty() && needs_tangents(*s.material))
     e[shading_input::handedness] = error.varying(s.handedness, x, y);
   if (!p.colors.empty())
     for (int c = 0; c < 4; ++c)
@@ -247,11 +249,11 @@ struct BoundedPoint {
 };
 
 BoundedPoint bounded_point(const PlacedDraw& placed, std::uint32_t element, const ElementSurface& s,
-                           const ElementError& error, const DeviceLimits& limits, ivec2 pixel,
-                           bool back) {
+                           const ElementError& error, const DeviceLimits& limits, const dvec3& eye,
+                           ivec2 pixel, bool back) {
   BoundedPoint p;
   p.point = shading_point(s, pixel.x, pixel.y, back);
-  p.error = varying_errors(placed, element, s, error, pixel.x, pixel.y);
+  p.error = varying_errors(placed, element, s, error, eye, pixel.x, pixel.y);
   const QuadBarycentrics b = quad_barycentrics(s.planes, pixel.x, pixel.y);
   for (std::size_t slot = 0; slot < slot_count; ++slot) {
     const MippedTexture& texture = (*s.textures)[slot];
@@ -266,20 +268,24 @@ BoundedPoint bounded_point(const PlacedDraw& placed, std::uint32_t element, cons
 
 dvec4 as_vector(const Shaded<double>& s) { return {s.rgb[0], s.rgb[1], s.rgb[2], s.alpha}; }
 
+/// Which way each input moves each channel.
+using Slopes = std::array<dvec4, shading_input::count>;
+
 /// Sum over the inputs of the larger change when one is moved up or down by its error.
 dvec4 moved_inputs(const BoundedPoint& p, const Material& material, const ShadingScene& scene,
-                   const dvec4& value) {
+                   const dvec4& value, Slopes& slopes) {
   dvec4 sum{0.0};
   ShadingPoint<double> moved = p.point;
   for (std::size_t i = 0; i < shading_input::count; ++i) {
     if (p.error[i] == 0) continue;
     moved.inputs[i] = p.point.inputs[i] + p.error[i];
-    const dvec4 up = glm::abs(as_vector(shade(material, scene, moved)) - value);
+    const dvec4 up = as_vector(shade(material, scene, moved)) - value;
     moved.inputs[i] = p.point.inputs[i] - p.error[i];
-    const dvec4 down = glm::abs(as_vector(shade(material, scene, moved)) - value);
+    const dvec4 down = as_vector(shade(material, scene, moved)) - value;
     moved.inputs[i] = p.point.inputs[i];
+    slopes[i] = up - down;
     for (int c = 0; c < 4; ++c) {
-      const double change = std::max(up[c], down[c]);
+      const double change = std::max(std::abs(up[c]), std::abs(down[c]));
       sum[c] += std::isnan(change) ? std::numeric_limits<double>::infinity() : change;
     }
   }
@@ -287,14 +293,30 @@ dvec4 moved_inputs(const BoundedPoint& p, const Material& material, const Shadin
 }
 
 /// What float arithmetic on exact inputs may make of the shading.
-dvec4 arithmetic(const BoundedPoint& p, const Material& material, const ShadingScene& scene,
-                 const dvec4& value) {
+dvec4 arithmetic(const ShadingPoint<double>& point, const Material& material,
+                 const ShadingScene& scene, const dvec4& value) {
   ShadingPoint<Interval> exact;
-  for (std::size_t i = 0; i < shading_input::count; ++i) exact.inputs[i] = p.point.inputs[i];
-  exact.back = p.point.back;
+  for (std::size_t i = 0; i < shading_input::count; ++i) exact.inputs[i] = point.inputs[i];
+  exact.back = point.back;
   const Shaded<Interval> range = shade(material, scene, exact);
   return {deviation(range.rgb[0], value.x), deviation(range.rgb[1], value.y),
           deviation(range.rgb[2], value.z), deviation(range.alpha, value.w)};
+}
+
+/// How far arithmetic on all inputs together is from the value, each moved by its error to the side
+/// that raises (or lowers) a channel: where slopes grow, or a table's cells meet, that is more than
+/// one by one.
+dvec4 moved_together(const BoundedPoint& p, const Material& material, const ShadingScene& scene,
+                     const dvec4& value, const Slopes& slopes) {
+  dvec4 largest{0.0};
+  for (int c = 0; c < 3; ++c)
+    for (const double side : {1.0, -1.0}) {
+      ShadingPoint<double> moved = p.point;
+      for (std::size_t i = 0; i < shading_input::count; ++i)
+        moved.inputs[i] += slopes[i][c] < 0 ? -side * p.error[i] : side * p.error[i];
+      largest[c] = std::max(largest[c], arithmetic(moved, material, scene, value)[c]);
+    }
+  return largest;
 }
 
 BoundedColor line_or_point(const PlacedDraw&, std::uint32_t, const ElementSurface& s,
@@ -315,11 +337,14 @@ BoundedColor shade_with_bound(const PlacedDraw& draw, std::uint32_t element,
                               const ShadingScene& scene, const DeviceLimits& limits, int x, int y,
                               bool back) {
   if (s.topology != Topology::triangles) return line_or_point(draw, element, s, error, x, y);
-  const BoundedPoint p = bounded_point(draw, element, s, error, limits, {x, y}, back);
+  const BoundedPoint p = bounded_point(draw, element, s, error, limits, scene.eye, {x, y}, back);
   BoundedColor color;
   color.value = as_vector(shade(*s.material, scene, p.point));
-  color.bound = moved_inputs(p, *s.material, scene, color.value) +
-                arithmetic(p, *s.material, scene, color.value);
+  Slopes slopes{};
+  color.bound = moved_inputs(p, *s.material, scene, color.value, slopes) +
+                arithmetic(p.point, *s.material, scene, color.value);
+  if (!s.material->unlit)
+    color.bound = glm::max(color.bound, moved_together(p, *s.material, scene, color.value, slopes));
   color.in_doubt = p.in_doubt;
   return color;
 }

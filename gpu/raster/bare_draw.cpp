@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "geometry/albedo_table.h"
 #include "gpu/raster/half.h"
 #include "shaders.h"
 
@@ -27,6 +28,7 @@ BareDraw::BareDraw(Context& context, const parity::Primitive& primitive, int wid
       positions_(context, primitive.positions),
       normals_(context, primitive.normals),
       indices_(context, primitive.indices),
+      albedo_table_(context, parity::albedo_table().values()),
       color_words_(context, 2 * std::size_t(width) * std::size_t(height)),
       depth_values_(context, std::size_t(width) * std::size_t(height)) {}
 
@@ -40,8 +42,8 @@ Timing BareDraw::draw(const Frame& frame, const Material& material) {
                       .to_light = vec3(-light.direction),
                       .irradiance = light.light.intensity,
                       .base_color = material.base_color.x,
-                      .metallic = material.metallic,
-                      .roughness = material.roughness};
+                      .roughness = material.roughness,
+                      .albedo_table = albedo_table_};
   const IndexedDraw all{.index_count = std::uint32_t(indices_.count())};
   return context_.run([&](Commands& commands) {
     commands.pass("draw");

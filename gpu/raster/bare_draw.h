@@ -18,7 +18,7 @@ class BareDraw {
   /// @param frame  perspective, reverse-Z, one sample, of a scene whose only draw is the mesh, in
   ///               the place where it was made, under one white directional light and a grey
   ///               environment.
-  /// @param material  grey, without emission and textures.
+  /// @param material  grey, no metal, without emission and textures.
   /// @return       passes: `draw`, `readback`.
   Timing draw(const Frame& frame, const Material& material);
 
@@ -33,6 +33,7 @@ class BareDraw {
   Buffer<vec3> positions_;
   Buffer<vec3> normals_;
   Buffer<std::uint32_t> indices_;
+  Buffer<vec4> albedo_table_;
   Buffer<std::uint32_t> color_words_;
   Buffer<float> depth_values_;
 };

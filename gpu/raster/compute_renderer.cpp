@@ -31,6 +31,7 @@ std::vector<Specialization> shade_constants(const SceneBuffers& scene, RenderOpt
   std::vector<Specialization> constants = scene_specializations(scene.features(), options);
   constants.push_back({10, std::uint32_t(frame.options.samples)});
   constants.push_back({11, std::uint32_t(frame.options.depth)});
+  constants.push_back({23, frame.environment.has_value()});
   return constants;
 }
 
@@ -66,6 +67,7 @@ std::vector<uvec2> triangle_items(const Frame& frame, const SceneBuffers& scene,
 ComputeRenderer::Target::Target(Context& context, const SceneBuffers& scene, RenderOptions options,
                                 const Frame& frame, std::uint32_t item_count)
     : rasterizer(context, rasterizer_options(frame, item_count)),
+      has_environment(frame.environment.has_value()),
       triangles_kernel(context, shaders::raster_scene_triangles_comp),
       shade_kernel(context, shaders::raster_scene_shade_comp,
                    shade_constants(scene, options, frame)),
@@ -81,7 +83,8 @@ bool ComputeRenderer::Target::fits(const Frame& frame, std::uint32_t item_count)
   const TileRasterizerOptions want = rasterizer_options(frame, item_count);
   return have.width == want.width && have.height == want.height && have.samples == want.samples &&
          have.depth == want.depth && have.near == want.near && have.far == want.far &&
-         have.triangle_capacity == want.triangle_capacity;
+         have.triangle_capacity == want.triangle_capacity &&
+         has_environment == frame.environment.has_value();
 }
 
 void ComputeRenderer::record(Commands& commands, const Frame& frame, const Buffer<SceneArgs>& args,

@@ -36,6 +36,7 @@ class ComputeRenderer {
     bool fits(const Frame& frame, std::uint32_t item_count) const;
 
     TileRasterizer rasterizer;
+    bool has_environment;
     Kernel<SceneTriangleArgs> triangles_kernel;
     Kernel<SceneShadeArgs> shade_kernel;
     Buffer<vec4> clip_positions;

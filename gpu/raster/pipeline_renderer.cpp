@@ -60,10 +60,12 @@ Grid<T> grid(const Frame& frame, std::vector<T> values) {
   return result;
 }
 
-/// Only how vertices are pulled and what the target holds: the defaults of the rest leave nothing
-/// out.
+/// Only how vertices are pulled, what the target holds and which buffers there are: the defaults of
+/// the rest leave nothing out.
 std::vector<Specialization> general_specializations(std::vector<Specialization> all) {
-  std::erase_if(all, [](const Specialization& s) { return s.id < 4 || s.id == 7 || s.id > 8; });
+  std::erase_if(all, [](const Specialization& s) {
+    return s.id < 4 || s.id == 7 || (s.id > 8 && s.id < 14) || s.id == 15;
+  });
   return all;
 }
 
@@ -78,7 +80,8 @@ std::vector<Specialization> scene_specializations(const SceneFeatures& features,
           {3, features.uv_pairs},
           {4, std::bit_cast<std::uint32_t>(largest)},
           {7, features.colors},
-          {13, features.unlit}};
+          {13, features.unlit},
+          {22, features.layers}};
 }
 
 PipelineRenderer::Targets::Targets(Context& context, const Frame& frame, RenderOptions options)
@@ -107,15 +110,16 @@ PipelineRenderer::Key PipelineRenderer::key_of(const Frame& frame, const SceneFr
                                                const Draw& draw) const {
   const AlphaMode mode = scene_.alpha_mode(draw.material);
   const SceneFeatures& has = scene_.features();
-  const bool is_plain = !has.textures && !has.colors && !options_.general && !options_.elements &&
-                        frame.options.depth != DepthMode::logarithmic;
+  const bool is_plain = !has.textures && !has.colors && !has.normal_maps && !options_.general &&
+                        !options_.elements && frame.options.depth != DepthMode::logarithmic;
   return {scene_.primitive(draw.mesh, draw.primitive).topology,
           frame.options.depth,
           frame.options.samples,
           mode == AlphaMode::blend,
           mode == AlphaMode::mask,
           data.has_placed_lights(),
-          is_plain};
+          is_plain,
+          frame.environment.has_value()};
 }
 
 const RasterPipeline<SceneArgs>& PipelineRenderer::pipeline(const Key& key) {
@@ -139,6 +143,7 @@ const RasterPipeline<SceneArgs>& PipelineRenderer::pipeline(const Key& key) {
   options.specializations.push_back({12, key.blended});
   options.specializations.push_back({14, !key.blended});
   options.specializations.push_back({15, key.has_placed_lights});
+  options.specializations.push_back({23, key.environment});
   if (options_.general) options.specializations = general_specializations(options.specializations);
   const ShaderCode& vertex =
       key.is_plain ? shaders::raster_scene_plain_vert : shaders::raster_scene_vert;

@@ -44,6 +44,7 @@ class PipelineRenderer {
     bool cuts_out = false;
     bool has_placed_lights = false;
     bool is_plain = false;  ///< no attribute but positions and normals
+    bool environment = false;
     auto operator<=>(const Key&) const = default;
   };
 

@@ -1,8 +1,10 @@
 #include "gpu/raster/scene_buffers.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <iterator>
 
+#include "geometry/albedo_table.h"
 #include "geometry/color.h"
 #include "geometry/mip_pyramid.h"
 
@@ -13,21 +15,6 @@ namespace {
 std::size_t pool_bytes(const Context& context) {
   return std::size_t(
       std::min<std::uint64_t>(context.info().max_buffer_bytes, std::uint64_t(64) << 20));
-}
-
-/// A texture that a material uses, what for, and whether it is stored in sRGB.
-struct Use {
-  const TextureUse* use = nullptr;
-  std::uint32_t role = 0;
-  bool srgb = false;
-};
-
-std::array<Use, 5> texture_uses(const Material& m) {
-  return {Use{&m.base_color_texture, texture_base_color, true},
-          Use{&m.metallic_roughness_texture, texture_metallic_roughness, false},
-          Use{&m.normal_texture, texture_normal, false},
-          Use{&m.occlusion_texture, texture_occlusion, false},
-          Use{&m.emission_texture, texture_emission, true}};
 }
 
 bool is_there(const Scene& scene, const TextureUse& use) {
@@ -69,10 +56,48 @@ SceneMaterial without_textures(const Material& m) {
   result.occlusion_strength = m.occlusion_strength;
   result.alpha_cutoff = m.alpha_cutoff;
   if (m.alpha_mode == AlphaMode::mask) result.flags |= material_flag_mask;
-  if (m.alpha_mode == AlphaMode::blend) result.flags |= material_flag_blend;
+  if (m.alpha_mode == AlphaMode::blend) result.flags |= material_flag_alpha;
+  if (is_blended(m)) result.flags |= material_flag_blend;
   if (m.double_sided) result.flags |= material_flag_double_sided;
   if (m.unlit) result.flags |= material_flag_unlit;
   return result;
+}
+
+bool has_layers(const Material& m) {
+  return m.ior != 1.5f || m.specular.strength != 1 || m.specular.color != vec3(1) ||
+         m.clearcoat.factor > 0 || m.sheen.color != vec3(0) || m.anisotropy.strength > 0 ||
+         m.transmission.factor > 0 || m.iridescence.factor > 0;
+}
+
+vec3 log2_attenuation(const Transmission& t) {
+  vec3 result{0.0f};
+  for (int i = 0; i < 3 && std::isfinite(t.attenuation_distance); ++i)
+    result[i] = float(std::log2(std::max(double(t.attenuation_color[i]), 1e-6)) /
+                      double(t.attenuation_distance));
+  return result;
+}
+
+SceneLayers layers_of(const Material& m) {
+  const double index = m.ior;
+  const double border = m.ior > 0 ? std::pow((index - 1) / (index + 1), 2) : 1.0;
+  return {.specular_color = vec3(dvec3(m.specular.color) * border),
+          .specular = m.specular.strength,
+          .clearcoat = m.clearcoat.factor,
+          .clearcoat_roughness = m.clearcoat.roughness,
+          .clearcoat_normal_scale = m.clearcoat.normal_scale,
+          .sheen_roughness = m.sheen.roughness,
+          .sheen_color = m.sheen.color,
+          .anisotropy = m.anisotropy.strength,
+          .anisotropy_direction = vec2(dvec2(std::cos(double(m.anisotropy.rotation)),
+                                             std::sin(double(m.anisotropy.rotation)))),
+          .index = m.ior > 0 ? m.ior : 1.0f,
+          .transmission = m.transmission.factor,
+          .thickness = m.transmission.thickness,
+          .log2_attenuation = log2_attenuation(m.transmission),
+          .has_coat_normal = m.clearcoat.normal_texture.texture >= 0 ? 1u : 0u,
+          .iridescence = m.iridescence.factor,
+          .film_index = m.iridescence.ior,
+          .film_thickness = vec2(m.iridescence.thickness_minimum, m.iridescence.thickness_maximum)};
 }
 
 /// Slot of a uv set within a material; a new one if it is not there yet.
@@ -106,7 +131,8 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene)
       uvs_(pool_bytes(context)),
       mip_pyramid_(context),
       mipmapped_(images_with_mips(scene)),
-      linear_from_srgb_(context, srgb_table()) {
+      linear_from_srgb_(context, srgb_table()),
+      albedo_table_(context, parity::albedo_table().values()) {
   add_materials(context, scene);
   for (const SceneMesh& mesh : scene.meshes) {
     std::vector<PrimitiveSlices>& slices = primitives_.emplace_back();
@@ -125,6 +151,13 @@ void SceneBuffers::add_materials(Context& context, const Scene& scene) {
   for (const Material& material : scene.materials)
     add_material(context, scene, material, textures, materials);
   add_material(context, scene, Material{}, textures, materials);
+  std::vector<SceneLayers> layers;
+  for (const Material& material : scene.materials) {
+    features_.layers |= has_layers(material);
+    layers.push_back(layers_of(material));
+  }
+  layers.push_back(layers_of(Material{}));
+  if (features_.layers) layers_ = Buffer<SceneLayers>(context, layers);
   materials_ = Buffer<SceneMaterial>(context, materials);
   textures_ = Buffer<SceneTexture>(context, textures);
 }
@@ -135,31 +168,37 @@ void SceneBuffers::add_material(Context& context, const Scene& scene, const Mate
   SceneMaterial& entry = materials.emplace_back(without_textures(material));
   entry.first_texture = std::uint32_t(textures.size());
   std::vector<int>& sets = uv_sets_.emplace_back();
-  for (const Use& use : texture_uses(material)) {
-    if (!is_there(scene, *use.use)) continue;
-    if (material.unlit && use.role != texture_base_color) continue;
-    const Texture& texture = scene.textures[std::size_t(use.use->texture)];
-    const Texels& image = texels(context, scene, texture.image, use.srgb);
-    const mat3& m = use.use->texture_from_uv;
+  const auto uses = textures_of(material);
+  for (std::size_t role = 0; role < uses.size(); ++role) {
+    const TextureUse& use = *uses[role];
+    if (!is_there(scene, use)) continue;
+    if (material.unlit && role != texture_base_color) continue;
+    const std::uint32_t slot = slot_of(sets, use.uv_set);
+    if (slot >= std::size(SceneDraw{}.uvs)) {
+      sets.pop_back();
+      continue;
+    }
+    const Texture& texture = scene.textures[std::size_t(use.texture)];
+    const Texels& image = texels(context, scene, texture.image, is_srgb(TextureRole(role)));
+    const mat3& m = use.texture_from_uv;
     textures.push_back({.texels = image.words,
                         .u_from_uv = vec3(m[0][0], m[1][0], m[2][0]),
                         .v_from_uv = vec3(m[0][1], m[1][1], m[2][1]),
                         .width = std::uint32_t(image.width),
                         .height = std::uint32_t(image.height),
                         .level_count = std::uint32_t(image.level_count),
-                        .flags = use.role | slot_of(sets, use.use->uv_set) << texture_slot_shift |
+                        .flags = std::uint32_t(role) | slot << texture_slot_shift |
                                  sampler_flags(texture.sampler)});
-    if (use.role == texture_normal) features_.normal_maps = true;
   }
+  features_.normal_maps |= needs_tangents(material) && !material.unlit;
   entry.texture_count = std::uint32_t(textures.size()) - entry.first_texture;
   features_.textures |= entry.texture_count > 0;
   features_.lit |= !material.unlit;
   features_.unlit |= material.unlit;
   features_.cuts_out |= material.alpha_mode == AlphaMode::mask;
   features_.uv_pairs = std::max(features_.uv_pairs, std::uint32_t((sets.size() + 1) / 2));
-  alpha_modes_.push_back(material.alpha_mode);
+  alpha_modes_.push_back(is_blended(material) ? AlphaMode::blend : material.alpha_mode);
   double_sided_.push_back(material.double_sided);
-  factors_.push_back(entry);
 }
 
 const SceneBuffers::Texels& SceneBuffers::texels(Context& context, const Scene& scene, int image,

@@ -16,9 +16,10 @@ namespace parity::gpu {
 /// What a scene makes the shaders do; all else is left out of them.
 struct SceneFeatures {
   bool textures = false;
-  bool normal_maps = false;
-  bool lit = false;    ///< some material is not unlit
-  bool unlit = false;  ///< some material is, or there are points or lines
+  bool normal_maps = false;  ///< or what else needs tangents
+  bool layers = false;       ///< some material has extensions
+  bool lit = false;          ///< some material is not unlit
+  bool unlit = false;        ///< some material is, or there are points or lines
   bool colors = false;
   bool cuts_out = false;
   std::uint32_t uv_pairs = 0;  ///< pairs of uv sets that one material reads
@@ -50,17 +51,17 @@ class SceneBuffers {
   const Buffer<std::uint32_t>& index_buffer(const PrimitiveSlices& slices) const {
     return indices_.buffer(slices.indices);
   }
-  /// As scene.materials; -1 names the default.
+  /// As scene.materials; -1 names the default. `blend` for all that is drawn over what is behind.
   AlphaMode alpha_mode(int material) const { return alpha_modes_[number(material)]; }
   bool double_sided(int material) const { return double_sided_[number(material)]; }
-  /// Without what its textures add.
-  const SceneMaterial& factors(int material) const { return factors_[number(material)]; }
   std::uint32_t number(int material) const {
     return material < 0 ? std::uint32_t(alpha_modes_.size() - 1) : std::uint32_t(material);
   }
 
   BufferRef<SceneMaterial> materials() const { return materials_; }
   BufferRef<SceneTexture> textures() const { return textures_; }
+  BufferRef<SceneLayers> layers() const { return layers_; }
+  BufferRef<vec4> albedo_table() const { return albedo_table_; }
   BufferRef<float> linear_from_srgb() const { return linear_from_srgb_; }
 
  private:
@@ -91,10 +92,11 @@ class SceneBuffers {
   std::vector<std::vector<int>> uv_sets_;  ///< by material and slot
   std::vector<AlphaMode> alpha_modes_;     ///< by material, the default last
   std::vector<bool> double_sided_;
-  std::vector<SceneMaterial> factors_;
   Buffer<SceneMaterial> materials_;
   Buffer<SceneTexture> textures_;
+  Buffer<SceneLayers> layers_;
   Buffer<float> linear_from_srgb_;
+  Buffer<vec4> albedo_table_;
 };
 
 }  // namespace parity::gpu

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "gpu/shading/punctual_light.h"
+
 namespace parity::gpu {
 namespace {
 
@@ -47,28 +49,31 @@ void place(SceneDraw& draw, const Draw& from, const dvec3& origin) {
   if (from.mirrored) draw.flags |= draw_flag_mirrored;
 }
 
-SceneLight place(const PlacedLight& placed, const dvec3& origin) {
-  const Light& light = placed.light;
-  SceneLight result{};
-  result.position = vec3(placed.position - origin);
-  result.kind = light.kind == LightKind::directional
-                    ? light_directional
-                    : (light.kind == LightKind::point ? light_point : light_spot);
-  result.direction = vec3(placed.direction);
-  result.inverse_range = light.range > 0 && std::isfinite(light.range) ? 1.0f / light.range : 0.0f;
-  result.intensity = light.color * light.intensity;
-  const double inner = std::cos(double(light.inner_cone_angle));
-  const double outer = std::cos(double(light.outer_cone_angle));
-  const double scale = 1.0 / std::max(0.001, inner - outer);
-  result.angle_scale = float(scale);
-  result.angle_offset = float(-outer * scale);
+std::vector<SceneLight> place_lights(const Frame& frame) {
+  std::vector<SceneLight> lights;
+  for (const PlacedLight& light : frame.lights) lights.push_back(scene_light(light, frame.eye));
+  return lights;
+}
+
+SceneEnvironment describe(const EnvironmentLight& light, BufferRef<vec4> mirrors) {
+  SceneEnvironment result{};
+  result.mirrors = mirrors;
+  result.level_count = std::uint32_t(light.mirrors.size());
+  std::uint32_t begin = 0;
+  for (std::size_t i = 0; i < light.mirrors.size(); ++i) {
+    result.begins[i] = begin;
+    result.sides[i] = std::uint32_t(light.mirrors[i].width() - 2);
+    begin += std::uint32_t(light.mirrors[i].size());
+  }
+  std::copy(light.irradiance.begin(), light.irradiance.end(), result.irradiance);
   return result;
 }
 
-std::vector<SceneLight> place_lights(const Frame& frame) {
-  std::vector<SceneLight> lights;
-  for (const PlacedLight& light : frame.lights) lights.push_back(place(light, frame.eye));
-  return lights;
+std::vector<vec4> all_texels(const EnvironmentLight& light) {
+  std::vector<vec4> texels;
+  for (const Grid<vec4>& level : light.mirrors)
+    texels.insert(texels.end(), level.begin(), level.end());
+  return texels;
 }
 
 double log2_far_over_near(const Frame& frame) {
@@ -86,8 +91,7 @@ BlendedPrimitives::BlendedPrimitives(const Scene& scene) {
   for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh)
     for (std::size_t i = 0; i < scene.meshes[mesh].primitives.size(); ++i) {
       const parity::Primitive& primitive = scene.meshes[mesh].primitives[i];
-      if (primitive.material < 0 ||
-          scene.materials[std::size_t(primitive.material)].alpha_mode != AlphaMode::blend)
+      if (primitive.material < 0 || !is_blended(scene.materials[std::size_t(primitive.material)]))
         continue;
       elements_[{int(mesh), int(i)}] = {primitive.topology, primitive.positions, primitive.indices};
     }
@@ -133,25 +137,32 @@ SceneFrame::SceneFrame(Context& context, const SceneBuffers& scene, BlendedPrimi
     SceneDraw& entry = draws_.emplace_back(scene.describe(slices, draw.material));
     place(entry, draw, frame.eye);
     entry.first_element = first_element;
-    factors_.push_back(scene.factors(draw.material));
     first_element += std::uint32_t(slices.indices.count / entry.corners);
     if (entry.corners == 3) triangle_count_ += slices.indices.count / 3;
   }
   draw_buffer_ = Buffer<SceneDraw>(context, draws_);
   light_buffer_ = Buffer<SceneLight>(context, place_lights(frame));
   order_buffer_ = Buffer<uvec2>(context, order_);
+  if (frame.environment) {
+    mirrors_ = Buffer<vec4>(context, all_texels(*frame.environment));
+    environment_ = Buffer<SceneEnvironment>(
+        context, std::vector<SceneEnvironment>{describe(*frame.environment, mirrors_)});
+  }
   args_ = {.draws = draw_buffer_,
            .materials = scene.materials(),
            .textures = scene.textures(),
            .lights = light_buffer_,
            .linear_from_srgb = scene.linear_from_srgb(),
-           .order = order_buffer_,
+           .layers = scene.layers(),
+           .environment = environment_,
+           .albedo_table = scene.albedo_table(),
            .ambient = frame.ambient,
            .light_count = std::uint32_t(frame.lights.size()),
            .backward = vec3(frame.backward),
            .orthographic = frame.orthographic ? 1u : 0u,
            .near = float(frame.near),
-           .log2_far_over_near = float(log2_far_over_near(frame))};
+           .log2_far_over_near = float(log2_far_over_near(frame)),
+           .order = order_buffer_};
   has_placed_lights_ = std::ranges::any_of(frame.lights, [](const PlacedLight& placed) {
     return placed.light.kind != LightKind::directional;
   });
@@ -160,10 +171,9 @@ SceneFrame::SceneFrame(Context& context, const SceneBuffers& scene, BlendedPrimi
 SceneArgs SceneFrame::args_of(std::size_t draw) const {
   SceneArgs args = args_;
   args.draws = draw_buffer_.ref(draw);
-  args.metallic = factors_[draw].metallic;
-  args.roughness = factors_[draw].roughness;
-  args.base_color = factors_[draw].base_color;
-  args.emission = factors_[draw].emission;
+  const std::uint64_t material = draws_[draw].material;
+  args.materials.address += material * sizeof(SceneMaterial);
+  if (args.layers.address != 0) args.layers.address += material * sizeof(SceneLayers);
   return args;
 }
 

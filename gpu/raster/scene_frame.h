@@ -40,7 +40,7 @@ class SceneFrame {
              const Frame& frame);
 
   const SceneArgs& args() const { return args_; }
-  /// The same for one draw: `draws` begins there, and the factors are those of its material.
+  /// The same for one draw: what it is drawn from and its material stand first.
   SceneArgs args_of(std::size_t draw) const;
   bool has_placed_lights() const { return has_placed_lights_; }
   const std::vector<SceneDraw>& draws() const { return draws_; }
@@ -53,9 +53,10 @@ class SceneFrame {
   Buffer<SceneDraw> draw_buffer_;
   Buffer<SceneLight> light_buffer_;
   Buffer<uvec2> order_buffer_;
+  Buffer<vec4> mirrors_;  ///< of the environment
+  Buffer<SceneEnvironment> environment_;
   SceneArgs args_{};
-  std::vector<SceneMaterial> factors_;  ///< by draw, without textures
-  bool has_placed_lights_ = false;      ///< points or spots
+  bool has_placed_lights_ = false;  ///< points or spots
   std::uint64_t triangle_count_ = 0;
 };
 

@@ -36,10 +36,12 @@ Context& checked(Context& context) {
 
 std::uint32_t tiles(int pixels) { return (std::uint32_t(pixels) + tile_side - 1) / tile_side; }
 
-std::vector<Specialization> refine_constants(const SceneBuffers& scene, DepthMode depth) {
+std::vector<Specialization> refine_constants(const SceneBuffers& scene, DepthMode depth,
+                                             bool has_environment) {
   std::vector<Specialization> constants =
       scene_specializations(scene.features(), {.elements = false, .full_float = true});
   constants.push_back({11, std::uint32_t(depth)});
+  constants.push_back({23, has_environment});
   return constants;
 }
 
@@ -160,7 +162,7 @@ struct Antialiaser::State {
   Kernel<PixelNeedArgs> need, list;
   Kernel<SceneTriangleArgs> triangles;
   std::optional<Kernel<RefineArgs>> refine_kernel;
-  DepthMode refine_depth = DepthMode::reverse_z;
+  std::pair<DepthMode, bool> refine_key;  ///< with an environment's picture
   std::optional<Target> target;
   std::optional<Lists> lists;  ///< kept while size, depth and count of triangles stay
   std::vector<std::pair<std::string, double>> passes;
@@ -195,10 +197,11 @@ void Antialiaser::State::add(Commands& commands, const Frame& frame, const Scene
 
 void Antialiaser::State::refine(Commands& commands, const Frame& frame, const Lists& of,
                                 std::uint32_t count, bool has_unseen) {
-  if (!refine_kernel || refine_depth != frame.options.depth)
+  const std::pair key{frame.options.depth, frame.environment.has_value()};
+  if (!refine_kernel || refine_key != key)
     refine_kernel.emplace(context, shaders::sampling_refine_comp,
-                          refine_constants(buffers, frame.options.depth));
-  refine_depth = frame.options.depth;
+                          refine_constants(buffers, key.first, key.second));
+  refine_key = key;
   const vec4 b = frame.options.background;
   commands.pass("refine");
   commands.dispatch(*refine_kernel, {count},

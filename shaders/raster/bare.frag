@@ -13,8 +13,15 @@ layout(location = 0) out vec4 color;
 void main() {
   const vec3 n = unit_or_zero(normal);
   const vec3 v = unit_or_zero(args.eye - position);
-  const Microsurface m = microsurface(vec3(args.base_color), args.metallic, args.roughness);
-  color = vec4(args.ambient * reflect_environment(m, view_cosine(n, v)) +
-                   args.irradiance * reflect_light(m, n, v, args.to_light),
+  Microsurface m;
+  m.diffuse = vec3(args.base_color);
+  m.reflectance = vec3(0.04);
+  m.grazing = 1.0;
+  m.roughness = clamp(args.roughness, 0.045, 1.0);
+  m.bounces = 0.0;
+  m.albedo = albedo_at(args.albedo_table, view_cosine(n, v), m.roughness);
+  const EnvironmentShares s = environment_shares(m);
+  color = vec4(args.ambient * (s.mirror + s.bounced + s.entering * m.diffuse) +
+                   args.irradiance * reflect_light(m, n, v, args.to_light, args.albedo_table),
                1.0);
 }

@@ -16,8 +16,8 @@ struct BareArgs {
   vec3 to_light;   // unit
   float irradiance;  // of a surface that faces the light
   float base_color;  // of any channel
-  float metallic;
   float roughness;
+  REF(vec4) albedo_table;
 };
 REF_TYPE(BareArgs, 8)
 

@@ -49,9 +49,10 @@ struct SceneMaterial {
 REF_TYPE(SceneMaterial, 4)
 
 const uint material_flag_mask = 1u;
-const uint material_flag_blend = 2u;
+const uint material_flag_blend = 2u;  // is drawn over what is behind
 const uint material_flag_double_sided = 4u;
 const uint material_flag_unlit = 8u;
+const uint material_flag_alpha = 16u;  // base colours have alpha
 
 // One use of a texture by a material.
 struct SceneTexture {
@@ -65,20 +66,32 @@ struct SceneTexture {
 };
 REF_TYPE(SceneTexture, 8)
 
-const uint texture_role_mask = 7u;  // what it is for:
+const uint texture_role_mask = 31u;  // what it is for, parity::TextureRole:
 const uint texture_base_color = 0u;
 const uint texture_metallic_roughness = 1u;
 const uint texture_normal = 2u;
 const uint texture_occlusion = 3u;
 const uint texture_emission = 4u;
-const uint texture_slot_shift = 3u;  // 3 bits: the slot of its uv
-const uint texture_wrap_u_shift = 6u;  // 2 bits: 0 repeat, 1 mirrored, 2 clamp, 3 border of 0
-const uint texture_wrap_v_shift = 8u;
-const uint texture_linear_mag = 1024u;
-const uint texture_linear_min = 2048u;
-const uint texture_mip_nearest = 4096u;
-const uint texture_mip_linear = 8192u;
-const uint texture_anisotropy_shift = 14u;  // 5 bits: 0 or 1: none
+const uint texture_specular = 5u;
+const uint texture_specular_color = 6u;
+const uint texture_clearcoat = 7u;
+const uint texture_clearcoat_roughness = 8u;
+const uint texture_clearcoat_normal = 9u;
+const uint texture_sheen_color = 10u;
+const uint texture_sheen_roughness = 11u;
+const uint texture_anisotropy = 12u;
+const uint texture_iridescence = 13u;
+const uint texture_iridescence_thickness = 14u;
+const uint texture_transmission = 15u;
+const uint texture_thickness = 16u;
+const uint texture_slot_shift = 5u;  // 3 bits: the slot of its uv
+const uint texture_wrap_u_shift = 8u;  // 2 bits: 0 repeat, 1 mirrored, 2 clamp, 3 border of 0
+const uint texture_wrap_v_shift = 10u;
+const uint texture_linear_mag = 4096u;
+const uint texture_linear_min = 8192u;
+const uint texture_mip_nearest = 16384u;
+const uint texture_mip_linear = 32768u;
+const uint texture_anisotropy_shift = 16u;  // 5 bits: 0 or 1: none
 
 struct SceneLight {
   vec3 position;   // relative to the origin, m
@@ -95,26 +108,58 @@ const uint light_directional = 0u;
 const uint light_point = 1u;
 const uint light_spot = 2u;
 
-// What all draws of a frame share, and what is read so often that it goes with each of them. As push
-// constants, which may be 128 bytes: 4 are left.
+// What the extensions of a material add.
+struct SceneLayers {
+  vec3 specular_color;  // reflectance of the border of the index times specularColorFactor
+  float specular;
+  float clearcoat;
+  float clearcoat_roughness;
+  float clearcoat_normal_scale;
+  float sheen_roughness;
+  vec3 sheen_color;
+  float anisotropy;
+  vec2 anisotropy_direction;  // cosine and sine of the rotation
+  float index;
+  float transmission;
+  float thickness;  // m; 0: a thin wall
+  vec3 log2_attenuation;  // 1/m
+  uint has_coat_normal;
+  float iridescence;
+  float film_index;
+  vec2 film_thickness;  // least and most, nm
+};
+REF_TYPE(SceneLayers, 4)
+
+// Light from all around: parity::EnvironmentLight.
+struct SceneEnvironment {
+  REF(vec4) mirrors;  // level after level, each with a border
+  uint level_count;
+  uint begins[6];
+  uint sides[6];  // without borders
+  vec3 irradiance[9];
+  uint padding;
+};
+REF_TYPE(SceneEnvironment, 8)
+
+// What all draws of a frame share, as push constants, which may be 128 bytes: 16 are left. For a draw
+// that is not of `order`, `draws`, `materials` and `layers` begin with its own: reading what has one
+// address for all fragments is far cheaper than reading where each of them says.
 struct SceneArgs {
   REF(SceneDraw) draws;
   REF(SceneMaterial) materials;
   REF(SceneTexture) textures;
   REF(SceneLight) lights;
   REF(float) linear_from_srgb;  // of the 256 codes
-  REF(uvec2) order;             // blended elements from far to near: draw, first index
+  REF(SceneLayers) layers;      // as materials, if any has some
+  REF(SceneEnvironment) environment;
+  REF(vec4) albedo_table;
   vec3 ambient;   // radiance
   uint light_count;
   vec3 backward;  // to an orthographic camera
   uint orthographic;
   float near;
   float log2_far_over_near;  // logarithmic depth only
-  // Factors of the one material that is drawn; not of `order`, where each element has its own.
-  float metallic;
-  float roughness;
-  vec4 base_color;
-  vec3 emission;
+  REF(uvec2) order;             // blended elements from far to near: draw, first index
 };
 REF_TYPE(SceneArgs, 8)
 

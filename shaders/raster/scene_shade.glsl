@@ -3,7 +3,9 @@
 #ifndef PARITY_RASTER_SCENE_SHADE_GLSL
 #define PARITY_RASTER_SCENE_SHADE_GLSL
 #include "raster/scene_layout.h"
-#include "shading/metallic_roughness.glsl"
+#include "shading/environment.glsl"
+#include "shading/layers.glsl"
+#include "shading/thin_film.glsl"
 #include "shading/punctual_light.glsl"
 #include "texture/sample.glsl"
 
@@ -16,7 +18,9 @@ layout(constant_id = 7) const bool has_colors = true;
 layout(constant_id = 9) const bool cuts_out = true;    // alpha masks
 layout(constant_id = 12) const bool blends = true;     // alpha of the material
 layout(constant_id = 13) const bool has_unlit = true;  // points and lines too
-layout(constant_id = 14) const bool one_material = false;  // the arguments hold its factors
+layout(constant_id = 14) const bool one_material = false;  // `materials` begins with it
+layout(constant_id = 22) const bool has_layers = true;       // extensions of materials
+layout(constant_id = 23) const bool has_environment = true;  // a picture of it
 layout(constant_id = 4) const float largest_value = 3.4028234e38;  // of the target
 
 struct Fragment {
@@ -38,7 +42,41 @@ struct Texels {
   bool bends;   // there is a normal map
   float occlusion;
   vec3 emission;
+  vec4 specular;  // colour and strength
+  vec3 coat;      // strength, roughness, unused
+  vec3 coat_normal;
+  vec4 sheen;  // colour and roughness
+  vec3 anisotropy;
+  vec2 transmission;  // strength, thickness
+  vec2 film;          // strength, thickness
 };
+
+Texels white_texels() {
+  Texels t;
+  t.base_color = t.specular = t.sheen = vec4(1.0);
+  t.metallic_roughness = t.emission = t.coat = vec3(1.0);
+  t.normal = t.coat_normal = vec3(0.5, 0.5, 1.0);
+  t.bends = false;
+  t.occlusion = 1.0;
+  t.anisotropy = vec3(1.0, 0.5, 1.0);
+  t.transmission = t.film = vec2(1.0);
+  return t;
+}
+
+void keep_layer_texel(inout Texels t, uint role, vec4 value) {
+  if (role == texture_specular) t.specular.a = value.a;
+  if (role == texture_specular_color) t.specular.rgb = value.rgb;
+  if (role == texture_clearcoat) t.coat.x = value.r;
+  if (role == texture_clearcoat_roughness) t.coat.y = value.g;
+  if (role == texture_clearcoat_normal) t.coat_normal = value.rgb;
+  if (role == texture_sheen_color) t.sheen.rgb = value.rgb;
+  if (role == texture_sheen_roughness) t.sheen.a = value.a;
+  if (role == texture_anisotropy) t.anisotropy = value.rgb;
+  if (role == texture_iridescence) t.film.x = value.r;
+  if (role == texture_iridescence_thickness) t.film.y = value.g;
+  if (role == texture_transmission) t.transmission.x = value.r;
+  if (role == texture_thickness) t.transmission.y = value.g;
+}
 
 vec2 uv_of_slot(vec4 pairs[3], uint slot) {
   vec4 pair = pairs[0];
@@ -48,7 +86,7 @@ vec2 uv_of_slot(vec4 pairs[3], uint slot) {
 }
 
 Texels read_textures(SceneArgs args, SceneMaterial material, Fragment f) {
-  Texels result = Texels(vec4(1.0), vec3(1.0), vec3(0.5, 0.5, 1.0), false, 1.0, vec3(1.0));
+  Texels result = white_texels();
   if (!has_textures) return result;
   [[dont_unroll]] for (uint i = 0u; i < material.texture_count; ++i) {
     SceneTexture t = args.textures.at[material.first_texture + i];
@@ -69,59 +107,175 @@ Texels read_textures(SceneArgs args, SceneMaterial material, Fragment f) {
     }
     if (role == texture_occlusion) result.occlusion = value.r;
     if (role == texture_emission) result.emission = value.rgb;
+    if (has_layers) keep_layer_texel(result, role, value);
   }
   return result;
 }
 
-// The interpolated normal turned to the viewer's side, bent by the normal map.
-vec3 shading_normal(SceneMaterial material, Fragment f, Texels texels) {
+// Unit vectors of the surface, turned to the viewer's side.
+struct TangentFrame {
+  vec3 tangent;
+  vec3 bitangent;
+  vec3 normal;
+};
+
+TangentFrame tangent_frame(Fragment f) {
   const float side = f.front ? 1.0 : -1.0;
   const vec3 n = unit_or_zero(f.normal) * side;
-  if (!has_normal_maps || !texels.bends) return n;
-  const vec3 m = (2.0 * texels.normal - 1.0) * vec3(material.normal_scale, material.normal_scale, 1.0);
+  if (!has_normal_maps) return TangentFrame(vec3(0.0), vec3(0.0), n);
   const vec3 t = unit_or_zero(f.tangent.xyz) * side;
-  const vec3 b = cross(n, t) * (f.tangent.w * side);
-  return unit_or_zero(m.x * t + m.y * b + m.z * n);
+  return TangentFrame(t, cross(n, t) * (f.tangent.w * side), n);
 }
 
-vec3 lit_radiance(SceneArgs args, SceneMaterial material, Fragment f, Texels texels, vec3 base) {
-  const vec3 n = shading_normal(material, f, texels);
+// Bent by a normal map.
+vec3 mapped_normal(TangentFrame frame, vec3 texel, float scale) {
+  const vec3 m = (2.0 * texel - 1.0) * vec3(scale, scale, 1.0);
+  return unit_or_zero(m.x * frame.tangent + m.y * frame.bitangent + m.z * frame.normal);
+}
+
+// What is common to all materials of a scene without layers.
+Microsurface base_surface(SceneMaterial material, Texels texels, vec3 base) {
+  const float metallic = material.metallic * texels.metallic_roughness.b;
+  Microsurface m;
+  m.diffuse = base * (1.0 - metallic);
+  m.reflectance = mix(vec3(0.04), base, metallic);
+  m.grazing = 1.0;
+  m.roughness = clamp(material.roughness * texels.metallic_roughness.g, 0.045, 1.0);
+  m.bounces = metallic;
+  m.albedo = vec3(0.0);
+  return m;
+}
+
+Layers layers_of(SceneArgs args, SceneLayers from, uint flags, inout Microsurface m, TangentFrame frame, vec3 n,
+                 vec3 v, Texels texels, float metallic, vec3 base) {
+  Layers y;
+  const float weight = from.specular * texels.specular.a;
+  const vec3 dielectric = min(from.specular_color * texels.specular.rgb, vec3(1.0)) * weight;
+  m.reflectance = dielectric * (1.0 - metallic) + base * metallic;
+  m.grazing = weight * (1.0 - metallic) + metallic;
+  if (from.iridescence > 0.0) {
+    const float thickness =
+        from.film_thickness.x + (from.film_thickness.y - from.film_thickness.x) * texels.film.y;
+    const vec3 film = thin_film(from.film_index, thickness, view_cosine(n, v), m.reflectance);
+    m.reflectance += (film - m.reflectance) * (from.iridescence * texels.film.x);
+  }
+  y.stretched = from.anisotropy > 0.0;
+  const vec2 d = 2.0 * texels.anisotropy.xy - 1.0;
+  const vec2 turn = from.anisotropy_direction;
+  const float strength = from.anisotropy * texels.anisotropy.z;
+  y.along = unit_or_zero((turn.x * d.x - turn.y * d.y) * frame.tangent +
+                         (turn.y * d.x + turn.x * d.y) * frame.bitangent);
+  y.across = cross(n, y.along);
+  const float alpha = m.roughness * m.roughness;
+  y.alpha = vec2(alpha + (1.0 - alpha) * (strength * strength), alpha);
+  const float lean = 1.0 - strength * (1.0 - m.roughness);
+  y.bend = (lean * lean) * (lean * lean);
+  y.coat_normal = from.has_coat_normal != 0u
+                      ? mapped_normal(frame, texels.coat_normal, from.clearcoat_normal_scale)
+                      : frame.normal;
+  y.coat_n_v = view_cosine(y.coat_normal, v);
+  y.coat_roughness = clamp(from.clearcoat_roughness * texels.coat.y, 0.045, 1.0);
+  y.coat_weight = from.clearcoat * texels.coat.x * (0.04 + 0.96 * schlick_weight(y.coat_n_v));
+  y.sheen = from.sheen_color * texels.sheen.rgb;
+  y.sheen_roughness = clamp(from.sheen_roughness * texels.sheen.a, 0.2, 1.0);
+  y.sheen_albedo = sheen_albedo_at(args.albedo_table, view_cosine(n, v), y.sheen_roughness);
+  y.transmission = from.transmission * texels.transmission.x;
+  y.tint = m.diffuse * exp2(from.log2_attenuation * (from.thickness * texels.transmission.y));
+  y.index = from.index;
+  y.thick = from.thickness > 0.0;
+  y.see_through = (flags & material_flag_blend) != 0u;
+  return y;
+}
+
+vec3 mirror_radiance(SceneArgs args, vec3 direction, float roughness) {
+  return has_environment ? mirrored(args.environment, direction, roughness) : args.ambient;
+}
+
+vec3 mean_radiance(SceneArgs args, vec3 normal) {
+  return has_environment ? irradiance_over_pi(args.environment, normal) : args.ambient;
+}
+
+vec3 mirror_of(vec3 v, vec3 n) { return n * (2.0 * dot(n, v)) - v; }
+
+// What is behind a surface that light passes, of the surroundings alone.
+vec3 behind(SceneArgs args, Microsurface m, Layers y, vec3 n, vec3 v) {
+  const float rough = m.roughness * clamp(2.0 * y.index - 2.0, 0.0, 1.0);
+  if (!y.thick) return mirror_radiance(args, -v, rough);
+  const float ratio = 1.0 / y.index;
+  const float cosine = dot(n, v);
+  const float inside = sqrt(max(1.0 - ratio * ratio * (1.0 - cosine * cosine), 0.0));
+  return mirror_radiance(args, n * (ratio * cosine - inside) - v * ratio, rough);
+}
+
+// Radiance from all around, without occlusion, and the share of what is behind that is to be seen.
+vec4 surrounded(SceneArgs args, Microsurface m, Layers y, vec3 n, vec3 v) {
+  vec3 lean = n;
+  if (has_layers && y.stretched)
+    lean = unit_or_zero(cross(cross(y.across, v), y.across) * (1.0 - y.bend) + n * y.bend);
+  const EnvironmentShares s = environment_shares(m);
+  const vec3 mean = mean_radiance(args, n);
+  vec3 body = m.diffuse * s.entering * mean;
+  float open = 0.0;
+  if (has_layers && y.transmission > 0.0) {
+    const vec3 passing = y.tint * s.entering * y.transmission;
+    if (y.see_through) open = clamp(min_component(passing), 0.0, 1.0 - 1.0 / 256.0);
+    body = body * (1.0 - y.transmission) + (passing - open) * behind(args, m, y, n, v);
+  }
+  vec3 sum = s.mirror * mirror_radiance(args, mirror_of(v, lean), m.roughness) + s.bounced * mean + body;
+  if (has_layers && max_component(y.sheen) > 0.0) {
+    const float keep = max(1.0 - max_component(y.sheen) * y.sheen_albedo, 0.0);
+    sum = sum * keep + y.sheen * y.sheen_albedo * mean;
+    open *= keep;
+  }
+  if (has_layers && y.coat_weight > 0.0) {
+    const vec3 albedo = albedo_at(args.albedo_table, y.coat_n_v, y.coat_roughness);
+    sum = sum * (1.0 - y.coat_weight) +
+          mirror_radiance(args, mirror_of(v, y.coat_normal), y.coat_roughness) *
+              (y.coat_weight * (albedo.x + albedo.y));
+    open *= 1.0 - y.coat_weight;
+  }
+  return vec4(sum, open);
+}
+
+// Straight colour and alpha: 1 unless light passes through.
+vec4 lit_radiance(SceneArgs args, SceneMaterial material, uint index, Fragment f, Texels texels,
+                  vec3 base) {
+  const TangentFrame frame = tangent_frame(f);
+  vec3 n = frame.normal;
+  if (has_normal_maps && texels.bends) n = mapped_normal(frame, texels.normal, material.normal_scale);
   const vec3 v = args.orthographic != 0u ? args.backward : unit_or_zero(-f.position);
-  const Microsurface m = microsurface(base, material.metallic * texels.metallic_roughness.b,
-                                      material.roughness * texels.metallic_roughness.g);
+  Microsurface m = base_surface(material, texels, base);
+  Layers y;
+  if (has_layers)
+    y = layers_of(args, args.layers.at[index], material.flags, m, frame, n, v, texels,
+                  material.metallic * texels.metallic_roughness.b, base);
+  m.albedo = albedo_at(args.albedo_table, view_cosine(n, v), m.roughness);
   const float occlusion = 1.0 + material.occlusion_strength * (texels.occlusion - 1.0);
-  vec3 sum = material.emission * texels.emission +
-             args.ambient * occlusion * reflect_environment(m, view_cosine(n, v));
+  const vec4 around = surrounded(args, m, y, n, v);
+  vec3 emission = material.emission * texels.emission;
+  if (has_layers) emission *= 1.0 - y.coat_weight;
+  vec3 sum = emission + around.rgb * occlusion;
   [[dont_unroll]] for (uint i = 0u; i < args.light_count; ++i) {
     const IncidentLight light = incident_light(args.lights.at[i], f.position);
-    sum += light.irradiance * reflect_light(m, n, v, light.to_light);
+    sum += light.irradiance * (has_layers ? reflect_light(m, y, n, v, light.to_light, args.albedo_table)
+                                          : reflect_light(m, n, v, light.to_light, args.albedo_table));
   }
-  return sum;
-}
-
-SceneMaterial material_of(SceneArgs args, uint index) {
-  SceneMaterial material = args.materials.at[index];
-  if (one_material) {
-    material.base_color = args.base_color;
-    material.emission = args.emission;
-    material.metallic = args.metallic;
-    material.roughness = args.roughness;
-  }
-  return material;
+  return vec4(sum / (1.0 - around.a), 1.0 - around.a);
 }
 
 // Colour (straight) and alpha. Alpha below 0: the fragment is cut out.
 vec4 shade_fragment(SceneArgs args, uint material_index, bool unlit, Fragment f) {
-  const SceneMaterial material = material_of(args, material_index);
+  const uint index = one_material ? 0u : material_index;
+  const SceneMaterial material = args.materials.at[index];
   const Texels texels = read_textures(args, material, f);
   const vec4 base = material.base_color * texels.base_color * f.color;
   const bool mask = cuts_out && (material.flags & material_flag_mask) != 0u;
   const bool blend = blends && (material.flags & material_flag_blend) != 0u;
   if (mask && base.a < material.alpha_cutoff) return vec4(0.0, 0.0, 0.0, -1.0);
-  vec3 color = base.rgb;
+  vec4 color = vec4(base.rgb, 1.0);
   const bool shows_base = has_unlit && (unlit || (material.flags & material_flag_unlit) != 0u);
-  if (has_light && !shows_base)
-    color = lit_radiance(args, material, f, texels, base.rgb);
-  return vec4(min(color, vec3(largest_value)), blend ? base.a : 1.0);
+  if (has_light && !shows_base) color = lit_radiance(args, material, index, f, texels, base.rgb);
+  if ((material.flags & material_flag_alpha) != 0u) color.a *= base.a;
+  return vec4(min(color.rgb, vec3(largest_value)), blend ? color.a : 1.0);
 }
 #endif

@@ -1,20 +1,19 @@
-// The metallic-roughness BRDF and its answer to a uniform environment. Source: notes 6.2; glTF 2.0,
-// appendix B; Heitz 2014 (height-correlated Smith); Karis 2014, "Physically based shading on mobile".
+// The metallic-roughness BRDF. Source: notes 6.2; glTF 2.0, appendix B; Heitz 2014 (height-correlated
+// Smith); Kulla & Conty 2017 (several bounces).
 #ifndef PARITY_SHADING_METALLIC_ROUGHNESS_GLSL
 #define PARITY_SHADING_METALLIC_ROUGHNESS_GLSL
-
-const float pi = 3.14159265358979;
+#include "shading/fresnel.glsl"
+#include "shading/microfacet.glsl"
+#include "shading/multi_scatter.glsl"
 
 struct Microsurface {
-  vec3 diffuse;     // albedo of the diffuse part, c_diff
-  vec3 reflectance; // at normal incidence, F0
-  float roughness;  // perceptual, at least 0.045
+  vec3 diffuse;      // albedo of the diffuse part, c_diff
+  vec3 reflectance;  // at normal incidence, F0
+  float grazing;     // at grazing angles, F90
+  float roughness;   // perceptual, at least 0.045
+  vec3 albedo;       // of the table, toward the eye
+  float bounces;     // how much several bounces of punctual light count: that of metal
 };
-
-Microsurface microsurface(vec3 base, float metallic, float roughness) {
-  return Microsurface(base * (1.0 - metallic), mix(vec3(0.04), base, metallic),
-                      clamp(roughness, 0.045, 1.0));
-}
 
 // v / |v|; 0 stays 0.
 vec3 unit_or_zero(vec3 v) {
@@ -25,39 +24,46 @@ vec3 unit_or_zero(vec3 v) {
 // The clamped cosine between the normal and the view.
 float view_cosine(vec3 n, vec3 v) { return max(abs(dot(n, v)), 1e-4); }
 
-// GGX. 1 - (n.h)^2 is taken from the cross product: the difference would lose all digits at small
-// roughness.
-float ggx_distribution(vec3 n, vec3 h, float alpha) {
-  const vec3 sine = cross(n, h);
-  const float cosine = clamp(dot(n, h), 0.0, 1.0);
-  const float t = dot(sine, sine) + (cosine * alpha) * (cosine * alpha);
-  return cosine > 0.0 ? alpha * alpha / (pi * t * t) : alpha * alpha / pi;
+// D V of an isotropic surface.
+float microfacet_lobe(vec3 n, vec3 h, float n_l, float n_v, float roughness) {
+  const float alpha = roughness * roughness;
+  return ggx_distribution(n, h, alpha) * smith_visibility(n_l, n_v, alpha);
 }
 
-// G / (4 n.l n.v)
-float smith_visibility(float n_l, float n_v, float alpha) {
-  const float a2 = alpha * alpha;
-  return 0.5 / (n_l * sqrt(n_v * n_v * (1.0 - a2) + a2) + n_v * sqrt(n_l * n_l * (1.0 - a2) + a2));
+// BRDF of the base, 1/sr, from D V and the cosine between the eye and the half vector.
+vec3 base_reflection(Microsurface m, float lobe, float v_h, float n_l, ref_vec4 albedo_table) {
+  const vec3 f = m.reflectance + (m.grazing - m.reflectance) * schlick_weight(v_h);
+  vec3 sum = (1.0 - f) * m.diffuse * (1.0 / pi) + f * lobe;
+  if (m.bounces > 0.0)
+    sum += m.bounces *
+           multi_scatter(albedo_at(albedo_table, n_l, m.roughness), m.albedo, m.reflectance, m.grazing);
+  return sum;
 }
 
 // BRDF times the cosine of the light, 1/sr. All directions point away from the surface.
-vec3 reflect_light(Microsurface m, vec3 n, vec3 v, vec3 l) {
+vec3 reflect_light(Microsurface m, vec3 n, vec3 v, vec3 l, ref_vec4 albedo_table) {
   const float n_l = clamp(dot(n, l), 0.0, 1.0);
   if (!(n_l > 0.0)) return vec3(0.0);
   const vec3 h = unit_or_zero(l + v);
-  const float alpha = m.roughness * m.roughness;
-  const float grazing = 1.0 - clamp(dot(v, h), 0.0, 1.0);
-  const float grazing2 = grazing * grazing;
-  const vec3 f = m.reflectance + (1.0 - m.reflectance) * (grazing2 * grazing2 * grazing);
-  const float d_v = ggx_distribution(n, h, alpha) * smith_visibility(n_l, view_cosine(n, v), alpha);
-  return ((1.0 - f) * m.diffuse * (1.0 / pi) + f * d_v) * n_l;
+  const float lobe = microfacet_lobe(n, h, n_l, view_cosine(n, v), m.roughness);
+  return base_reflection(m, lobe, dot(v, h), n_l, albedo_table) * n_l;
 }
 
-// Share of a uniform environment's radiance that comes back, without occlusion.
-vec3 reflect_environment(Microsurface m, float n_v) {
-  const vec4 r = m.roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
-  const float a004 = min(r.x * r.x, exp2(-9.28 * n_v)) * r.x + r.y;
-  const vec3 s = m.reflectance * (-1.04 * a004 + r.z) + (1.04 * a004 + r.w);
-  return m.diffuse * (1.0 - s) + s;
+// Shares of the light from all around: of what the mirror shows, of the mean radiance over the
+// hemisphere after several bounces, and what enters the body. Source: Fdez-Aguera 2019.
+struct EnvironmentShares {
+  vec3 mirror;
+  vec3 bounced;
+  vec3 entering;
+};
+
+EnvironmentShares environment_shares(Microsurface m) {
+  EnvironmentShares s;
+  const float lost = 1.0 - (m.albedo.x + m.albedo.y);
+  const vec3 mean = mean_schlick(m.reflectance, m.grazing);
+  s.mirror = m.reflectance * m.albedo.x + m.grazing * m.albedo.y;
+  s.bounced = s.mirror * mean / (1.0 - lost * mean) * lost;
+  s.entering = 1.0 - s.mirror - s.bounced;
+  return s;
 }
 #endif

@@ -36,7 +36,8 @@ vec4 decode_texel(uint texel, bool srgb, ref_float linear_from_srgb) {
 // One level, filtered within it.
 vec4 sample_level(SceneTexture t, uint level, bool linear, vec2 uv, ref_float linear_from_srgb) {
   const uint role = t.flags & texture_role_mask;
-  const bool srgb = role == texture_base_color || role == texture_emission;
+  const bool srgb = role == texture_base_color || role == texture_emission ||
+                    role == texture_specular_color || role == texture_sheen_color;
   const vec2 size = vec2(max(t.width >> level, 1u), max(t.height >> level, 1u));
   const uint wrap_u = (t.flags >> texture_wrap_u_shift) & 3u;
   const uint wrap_v = (t.flags >> texture_wrap_v_shift) & 3u;

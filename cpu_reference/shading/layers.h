@@ -1,0 +1,228 @@
+#pragma once
+
+#include <numbers>
+
+#include "cpu_reference/shading/lookup.h"
+#include "cpu_reference/shading/triple.h"
+#include "geometry/albedo_table.h"
+
+namespace parity::cpu {
+
+constexpr double least_n_dot_v = 1e-4;
+
+/// Reflectance of the border of a layer of index 1.5.
+constexpr double coat_f0 = 0.04;
+
+/// A point of a surface with all its layers. Real is double or Interval.
+template <class Real>
+struct Surface {
+  Triple<Real> normal;  ///< unit, on the side of the eye
+  Triple<Real> to_eye;
+  Real n_dot_v{};
+
+  Triple<Real> diffuse;  ///< albedo
+  Triple<Real> f0;
+  Real f90{1.0};
+  Real roughness{};
+  Real alpha_squared{};  ///< roughness^4
+  bool bounces = false;  ///< light that leaves after several bounces counts, as far as it is metal
+  Real metallic{};
+  Triple<Real> albedo;  ///< of the table: slope, offset, mean
+
+  bool stretched = false;
+  Triple<Real> along, across;
+  Real alpha_along{}, alpha_across{}, bend{};
+
+  bool coated = false;
+  Triple<Real> coat_normal;
+  Real coat_roughness{}, coat_n_dot_v{}, coat_weight{};
+
+  bool fibrous = false;
+  Triple<Real> sheen;
+  Real sheen_roughness{}, sheen_albedo{};
+
+  bool transmits = false;
+  Triple<Real> tint;  ///< what passes through the body
+  Real transmission{};
+  bool thick = false;
+  bool see_through = false;  ///< what is behind is blended
+  Real index{1.5};
+};
+
+/// D V of an isotropic GGX: glTF 2.0, B.3.2.
+template <class Real>
+Real isotropic_lobe(const Real& alpha_squared, const Real& n_dot_h, const Real& n_dot_l,
+                    const Real& n_dot_v) {
+  const Real one_less = Real(1.0) - alpha_squared;
+  const Real shape = Real(1.0) - square(n_dot_h) * one_less;
+  const Real d = alpha_squared / (rounded<Real>(std::numbers::pi) * square(shape));
+  const Real toward_eye = n_dot_l * square_root(square(n_dot_v) * one_less + alpha_squared);
+  const Real toward_light = n_dot_v * square_root(square(n_dot_l) * one_less + alpha_squared);
+  return d * (Real(0.5) / (toward_eye + toward_light));
+}
+
+/// D V of a GGX stretched along the tangent. Source: KHR_materials_anisotropy, "Implementation".
+template <class Real>
+Real stretched_lobe(const Surface<Real>& s, const Triple<Real>& l, const Triple<Real>& h,
+                    const Real& n_dot_h, const Real& n_dot_l) {
+  const Real spread = square(dot(s.along, h) / s.alpha_along) +
+                      square(dot(s.across, h) / s.alpha_across) + square(n_dot_h);
+  const Real area = s.alpha_along * s.alpha_across;
+  const Real d = Real(1.0) / (rounded<Real>(std::numbers::pi) * area * square(spread));
+  const auto slant = [&](const Triple<Real>& w, const Real& cosine) {
+    return square_root(square(s.alpha_along * dot(s.along, w)) +
+                       square(s.alpha_across * dot(s.across, w)) + square(cosine));
+  };
+  return d * (Real(0.5) / (n_dot_l * slant(s.to_eye, s.n_dot_v) + s.n_dot_v * slant(l, n_dot_l)));
+}
+
+/// What several bounces between microfacets add. Source: Kulla & Conty 2017.
+template <class Real>
+Triple<Real> bounced_lobe(const Surface<Real>& s, const Real& n_dot_l) {
+  const Triple<Real> toward_light = tabulated_albedo(albedo_table(), n_dot_l, s.roughness);
+  const Real& mean = s.albedo.z;
+  const Real lost =
+      (Real(1.0) - (toward_light.x + toward_light.y)) * (Real(1.0) - (s.albedo.x + s.albedo.y));
+  const Real lobe = lost / (rounded<Real>(std::numbers::pi) * most(Real(1.0) - mean, Real(1e-6)));
+  const auto channel = [&](const Real& f0) {
+    const Real f = f0 + (s.f90 - f0) * rounded<Real>(1.0 / 21);
+    return lobe * (square(f) * mean / (Real(1.0) - f * (Real(1.0) - mean)));
+  };
+  return {channel(s.f0.x), channel(s.f0.y), channel(s.f0.z)};
+}
+
+/// Charlie's distribution times the visibility of Neubelt & Pettineo, for a white sheen.
+template <class Real>
+Real sheen_lobe(const Surface<Real>& s, const Real& n_dot_h, const Real& n_dot_l) {
+  const Real inverse = Real(1.0) / square(s.sheen_roughness);
+  const Real sine2 = most(Real(1.0) - square(n_dot_h), Real(1e-7));
+  const Real d = (Real(2.0) + inverse) * exp2_of(Real(0.5) * inverse * log2_of(sine2)) /
+                 rounded<Real>(2 * std::numbers::pi);
+  return d / (Real(4.0) * (n_dot_l + s.n_dot_v - n_dot_l * s.n_dot_v));
+}
+
+/// BRDF of all layers times the cosine of the light. Source: glTF 2.0, B.3; KHR_materials_*.
+template <class Real>
+Triple<Real> reflected(const Surface<Real>& s, const Triple<Real>& to_light, const Real& n_dot_l) {
+  const Triple<Real> h = normalized(s.to_eye + to_light);
+  const Real n_dot_h = clamped(dot(s.normal, h), 0, 1);
+  const Real v_dot_h = clamped(dot(s.to_eye, h), 0, 1);
+  const Real lobe = s.stretched ? stretched_lobe(s, to_light, h, n_dot_h, n_dot_l)
+                                : isotropic_lobe(s.alpha_squared, n_dot_h, n_dot_l, s.n_dot_v);
+  const Real fresnel = fifth_power(clamped(Real(1.0) - v_dot_h, 0, 1));
+  const Triple<Real> f = s.f0 + (all(s.f90) - s.f0) * fresnel;
+  Triple<Real> diffuse = (all(Real(1.0)) - f) * s.diffuse * rounded<Real>(std::numbers::inv_pi);
+  if (s.transmits) diffuse = diffuse * (Real(1.0) - s.transmission);
+  Triple<Real> sum = diffuse + f * lobe;
+  if (s.bounces) sum = sum + bounced_lobe(s, n_dot_l) * s.metallic;
+  if (s.fibrous) {
+    const Real toward_light = tabulated_sheen(albedo_table(), n_dot_l, s.sheen_roughness);
+    const Real taken = largest(s.sheen) * most(s.sheen_albedo, toward_light);
+    sum = sum * most(Real(1.0) - taken, Real(0.0)) + s.sheen * sheen_lobe(s, n_dot_h, n_dot_l);
+  }
+  sum = sum * n_dot_l;
+  if (!s.coated) return sum;
+  const Real coat_n_dot_l = clamped(dot(s.coat_normal, to_light), 0, 1);
+  const Real coat_n_dot_h = clamped(dot(s.coat_normal, h), 0, 1);
+  sum = sum * (Real(1.0) - s.coat_weight);
+  if (vanishes(coat_n_dot_l)) return sum;
+  const Real coat =
+      isotropic_lobe(square(square(s.coat_roughness)), coat_n_dot_h, coat_n_dot_l, s.coat_n_dot_v);
+  return sum + all(s.coat_weight * coat * coat_n_dot_l);
+}
+
+/// Light from all around: radiance of mirrors by direction and roughness, irradiance over pi by
+/// normal; the same everywhere without a picture of it.
+struct Surroundings {
+  dvec3 uniform{0.0};
+  const EnvironmentLight* light = nullptr;
+};
+
+template <class Real>
+Triple<Real> mirror_radiance(const Surroundings& around, const Triple<Real>& direction,
+                             const Real& roughness) {
+  return around.light ? mirrored(*around.light, direction, roughness)
+                      : triple<Real>(around.uniform);
+}
+
+template <class Real>
+Triple<Real> mean_radiance(const Surroundings& around, const Triple<Real>& normal) {
+  return around.light ? irradiance_over_pi(*around.light, normal) : triple<Real>(around.uniform);
+}
+
+template <class Real>
+Triple<Real> reflection(const Triple<Real>& to_eye, const Triple<Real>& normal) {
+  return normal * (Real(2.0) * dot(normal, to_eye)) - to_eye;
+}
+
+/// Where the stretched lobe looks: the normal leans toward the eye across the tangent.
+/// Source: KHR_materials_anisotropy, "Implementation", image-based lighting.
+template <class Real>
+Triple<Real> mirror_direction(const Surface<Real>& s) {
+  if (!s.stretched) return reflection(s.to_eye, s.normal);
+  const Triple<Real> leaning = cross(cross(s.across, s.to_eye), s.across);
+  return reflection(s.to_eye, normalized(leaning * (Real(1.0) - s.bend) + s.normal * s.bend));
+}
+
+/// What is behind a surface that light passes, of the surroundings alone.
+template <class Real>
+Triple<Real> through(const Surface<Real>& s, const Surroundings& around) {
+  const Real rough = s.roughness * clamped(Real(2.0) * s.index - Real(2.0), 0.0, 1.0);
+  if (!s.thick) return mirror_radiance(around, s.to_eye * Real(-1.0), rough);
+  const Real ratio = Real(1.0) / s.index;
+  const Real cosine = dot(s.normal, s.to_eye);
+  const Real inside =
+      square_root(most(Real(1.0) - square(ratio) * (Real(1.0) - square(cosine)), Real(0.0)));
+  return mirror_radiance(around, s.normal * (ratio * cosine - inside) - s.to_eye * ratio, rough);
+}
+
+/// What comes from all around, and how much of what is behind is to be seen.
+template <class Real>
+struct Surrounded {
+  Triple<Real> radiance;
+  Real open{};  ///< 0 to 1
+};
+
+/// Source: Fdez-Aguera 2019, "A Multiple-Scattering Microfacet Model for Real-Time Image-based
+/// Lighting"; KHR_materials_*.
+/// The light behind a transmissive surface that all channels pass alike is left to blending:
+/// `open`.
+template <class Real>
+Surrounded<Real> surrounded(const Surface<Real>& s, const Surroundings& around) {
+  const Triple<Real> mirror = mirror_radiance(around, mirror_direction(s), s.roughness);
+  const Triple<Real> mean = mean_radiance(around, s.normal);
+  const Real total = s.albedo.x + s.albedo.y;
+  const Real lost = Real(1.0) - total;
+  const auto several = [&](const Real& single, const Real& f0) {
+    const Real f = f0 + (s.f90 - f0) * rounded<Real>(1.0 / 21);
+    return single * f / (Real(1.0) - lost * f) * lost;
+  };
+  const Triple<Real> single = s.f0 * s.albedo.x + all(s.f90 * s.albedo.y);
+  const Triple<Real> more{several(single.x, s.f0.x), several(single.y, s.f0.y),
+                          several(single.z, s.f0.z)};
+  const Triple<Real> entering = all(Real(1.0)) - single - more;
+  Surrounded<Real> result{{}, Real(0.0)};
+  Triple<Real> body = s.diffuse * entering * mean;
+  if (s.transmits) {
+    const Triple<Real> passing = s.tint * entering * s.transmission;
+    if (s.see_through) result.open = clamped(smallest(passing), 0.0, 1.0 - 1.0 / 256);
+    body = body * (Real(1.0) - s.transmission) + (passing - all(result.open)) * through(s, around);
+  }
+  result.radiance = single * mirror + more * mean + body;
+  if (s.fibrous) {
+    const Real keep = most(Real(1.0) - largest(s.sheen) * s.sheen_albedo, Real(0.0));
+    result.radiance = result.radiance * keep + s.sheen * s.sheen_albedo * mean;
+    result.open = result.open * keep;
+  }
+  if (s.coated) {
+    const Triple<Real> albedo = tabulated_albedo(albedo_table(), s.coat_n_dot_v, s.coat_roughness);
+    const Triple<Real> coat =
+        mirror_radiance(around, reflection(s.to_eye, s.coat_normal), s.coat_roughness);
+    const Real keep = Real(1.0) - s.coat_weight;
+    result.radiance = result.radiance * keep + coat * (s.coat_weight * (albedo.x + albedo.y));
+    result.open = result.open * keep;
+  }
+  return result;
+}
+
+}  // namespace parity::cpu

@@ -1,0 +1,30 @@
+// Light from all around, prefiltered. Source: Karis 2013 (split sum); Ramamoorthi & Hanrahan 2001
+// (spherical harmonics).
+#ifndef PARITY_SHADING_ENVIRONMENT_GLSL
+#define PARITY_SHADING_ENVIRONMENT_GLSL
+#include "raster/scene_layout.h"
+#include "shading/octahedral.glsl"
+
+// What a mirror of that roughness shows.
+vec3 mirrored(ref_SceneEnvironment environment, vec3 direction, float roughness) {
+  const vec2 uv = octahedral_uv(direction);
+  const uint count = environment.at[0].level_count;
+  const float level = clamp(roughness, 0.0, 1.0) * float(count - 1u);
+  const uint i = min(uint(level), count - 2u);
+  const vec3 sharper = octahedral_texel(environment.at[0].mirrors, environment.at[0].begins[i],
+                                        environment.at[0].sides[i], uv);
+  const vec3 softer = octahedral_texel(environment.at[0].mirrors, environment.at[0].begins[i + 1u],
+                                       environment.at[0].sides[i + 1u], uv);
+  return mix(sharper, softer, level - float(i));
+}
+
+vec3 irradiance_over_pi(ref_SceneEnvironment e, vec3 n) {
+  const vec3 sum = e.at[0].irradiance[0] + e.at[0].irradiance[1] * n.y + e.at[0].irradiance[2] * n.z +
+                   e.at[0].irradiance[3] * n.x + e.at[0].irradiance[4] * (n.x * n.y) +
+                   e.at[0].irradiance[5] * (n.y * n.z) +
+                   e.at[0].irradiance[6] * (3.0 * n.z * n.z - 1.0) +
+                   e.at[0].irradiance[7] * (n.x * n.z) +
+                   e.at[0].irradiance[8] * (n.x * n.x - n.y * n.y);
+  return max(sum, vec3(0.0));
+}
+#endif
