@@ -244,7 +244,7 @@ void read_solver(const Node& root, SimSolver& solver) {
   if (!root.has("solver")) return;
   const Node node = root.at("solver");
   node.expect_keys({"advection", "divergence", "density_error", "courant", "max_step",
-                    "sound_speed", "artificial_viscosity", "flip_ratio"});
+                    "sound_speed", "artificial_viscosity", "implicit_viscosity", "flip_ratio"});
   if (node.has("advection"))
     solver.advection =
         node.at("advection")
@@ -255,6 +255,8 @@ void read_solver(const Node& root, SimSolver& solver) {
   node.read("max_step", solver.max_step, {1e-7, 10});
   node.read("sound_speed", solver.sound_speed, {1e-3, 1e5});
   node.read("artificial_viscosity", solver.artificial_viscosity, {0, 10});
+  if (node.has("implicit_viscosity"))
+    solver.implicit_viscosity = node.at("implicit_viscosity").boolean();
   node.read("flip_ratio", solver.flip_ratio, {0, 1});
 }
 
@@ -389,7 +391,7 @@ std::string physics_text(const SimScene& scene) {
               {"solver",
                {int(s.advection), s.divergence, s.density_error, optional_json(s.courant),
                 optional_json(s.max_step), optional_json(s.sound_speed), s.artificial_viscosity,
-                s.flip_ratio}},
+                s.implicit_viscosity, s.flip_ratio}},
               {"start", int(scene.start)},
               {"liquid", bodies_json(scene.liquid)},
               {"solids", bodies_json(scene.solids)},

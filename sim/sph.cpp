@@ -38,6 +38,18 @@ void check_points(const char* name, const std::vector<vec3>& points, std::uint32
   }
 }
 
+void check_motions(const SphProblem& problem) {
+  const std::vector<vec4>& motions = problem.boundary_motions;
+  if (!motions.empty() && motions.size() != problem.boundary.size())
+    refuse("boundary_motions are " + std::to_string(motions.size()),
+           "none or as many as wall particles, " + std::to_string(problem.boundary.size()));
+  for (std::size_t i = 0; i < motions.size(); ++i)
+    if (!finite(dvec3(motions[i])) || !(motions[i].w >= 0 && motions[i].w <= 1) ||
+        (problem.parameters.dimensions == 2 && motions[i].z != 0))
+      refuse("boundary motion of particle " + std::to_string(i) + " is not one",
+             "finite, in the plane in 2 dimensions, its share in 0 to 1");
+}
+
 /// Cells of one spacing along each axis of a box.
 ivec3 cells_of(const SphBox& box, double spacing, std::uint32_t dimensions) {
   ivec3 cells(1);
@@ -57,6 +69,7 @@ void check_sph_parameters(const SphParameters& p) {
   check_number("sound_speed", p.sound_speed, 1e-6);
   check_number("artificial_viscosity", p.artificial_viscosity, 0);
   check_number("viscosity", p.viscosity, 0);
+  check_number("viscosity_error", p.viscosity_error, 1e-7, 1);
   check_number("surface_tension", p.surface_tension, 0);
   check_number("courant", p.courant, 1e-6, 1);
   check_number("fixed_step", p.fixed_step, 0);
@@ -84,6 +97,7 @@ void check_sph_problem(const SphProblem& problem) {
   check_points("position", state.positions, p.dimensions);
   check_points("velocity", state.velocities, p.dimensions);
   check_points("boundary position", problem.boundary, p.dimensions);
+  check_motions(problem);
   double cells = 1;
   for (int k = 0; k < int(p.dimensions); ++k) {
     const double side = problem.domain.high[k] - problem.domain.low[k];

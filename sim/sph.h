@@ -33,14 +33,16 @@ struct SphParameters {
   double sound_speed = 20;            ///< m/s; ten times the largest speed gives 1 % compression
   double artificial_viscosity = 0.1;  ///< alpha of Monaghan 1992
   double viscosity = 0;               ///< m^2/s, kinematic
-  double surface_tension = 0;         ///< kappa of Becker & Teschner 2007 per volume, 1/s^2
-  dvec3 gravity{0, -9.81, 0};         ///< m/s^2
+  bool implicit_viscosity = false;    ///< solve for the velocities that viscosity leads to
+  double viscosity_error = 1e-5;  ///< RMS error of those velocities over their RMS, where to stop
+  double surface_tension = 0;     ///< kappa of Becker & Teschner 2007 per volume, 1/s^2
+  dvec3 gravity{0, -9.81, 0};     ///< m/s^2
   double courant = 0.5;    ///< fraction of the stable step that an adaptive step takes, in (0, 1]
   double fixed_step = 0;   ///< s; 0: adaptive
   double max_step = 0.01;  ///< s, of an adaptive step
   double density_error = 5e-4;  ///< average compression at which the incompressible solver stops;
                                 ///< the largest may be ten times that
-  std::uint32_t max_iterations = 100;  ///< of that solver, per step
+  std::uint32_t max_iterations = 100;  ///< of each solver, per step
 };
 
 /// Who, what, which value, what was expected.
@@ -69,9 +71,12 @@ struct SphBox {
 struct SphProblem {
   SphParameters parameters;
   SphState initial;
-  std::vector<vec3> boundary;  ///< resting particles of the walls, one layer, a spacing apart
-  SphBox domain;               ///< what the walls enclose; particles may leave it all the same
-  double duration = 1;         ///< s
+  std::vector<vec3> boundary;  ///< particles of the walls, one layer, a spacing apart
+  /// Velocity of each wall particle, m/s, which slides along its wall, and the share of the
+  /// viscosity that acts on it: 1 does not slip, 0 does. Empty: all rest and do not slip.
+  std::vector<vec4> boundary_motions = {};
+  SphBox domain;        ///< what the walls enclose; particles may leave it all the same
+  double duration = 1;  ///< s
 };
 
 /// @throws std::invalid_argument  parameters, as check_sph_parameters; counts of positions and

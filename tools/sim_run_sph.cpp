@@ -82,6 +82,7 @@ SphProblem problem_of(const SimScene& scene) {
   p.sound_speed = scene.solver.sound_speed.value_or(sound_speed_of(scene));
   p.artificial_viscosity = scene.solver.artificial_viscosity;
   p.viscosity = scene.fluid.viscosity;
+  p.implicit_viscosity = scene.solver.implicit_viscosity;
   p.surface_tension = scene.fluid.surface_tension;
   p.gravity = scene.gravity;
   p.courant = scene.solver.courant.value_or(p.courant);

@@ -22,13 +22,15 @@ Pair pair_of(const SphParameters& p, const dvec3& apart, const dvec3& velocity) 
   return {apart, velocity, r, r > 0 ? slope / r * apart : dvec3(0)};
 }
 
-/// Acceleration by friction with a mass at a mean density.
-dvec3 friction(const SphParameters& p, const Pair& pair, double mass, double density) {
+/// Acceleration by friction with a mass at a mean density; `share` of the laminar viscosity.
+dvec3 friction(const SphParameters& p, const Pair& pair, double mass, double density,
+               double share) {
   const double h = p.support / 2;
   const double along = glm::dot(pair.velocity, pair.apart);
   const double squares = pair.distance * pair.distance + 0.01 * h * h;
+  const double viscosity = p.implicit_viscosity ? 0 : share * p.viscosity;
   dvec3 result =
-      2.0 * (p.dimensions + 2) * p.viscosity * mass / density * along / squares * pair.gradient;
+      2.0 * (p.dimensions + 2) * viscosity * mass / density * along / squares * pair.gradient;
   if (along < 0 && p.method == SphMethod::weakly_compressible) {
     const double mu = h * along / squares;
     result += mass * p.artificial_viscosity * p.sound_speed * mu / density * pair.gradient;
@@ -52,18 +54,20 @@ std::vector<dvec3> sum_accelerations(const SphProblem& problem, const SphNeighbo
     for (const std::uint32_t j : neighbours.fluid[i]) {
       const Pair pair = pair_of(p, at - dvec3(state.positions[j]), v - dvec3(state.velocities[j]));
       result[i] -= mass * (pressed(i) + pressed(j)) * pair.gradient;
-      result[i] += friction(p, pair, mass, (rho[i] + rho[j]) / 2);
+      result[i] += friction(p, pair, mass, (rho[i] + rho[j]) / 2, 1);
       result[i] -= p.surface_tension * mass / p.rest_density *
                    sph_kernel(p.kernel, p.dimensions, pair.distance, p.support) * pair.apart;
     }
     for (const std::uint32_t j : neighbours.walls[i]) {
-      const Pair pair = pair_of(p, at - dvec3(problem.boundary[j]), v);
+      const dvec4 motion =
+          problem.boundary_motions.empty() ? dvec4(0, 0, 0, 1) : dvec4(problem.boundary_motions[j]);
+      const Pair pair = pair_of(p, at - dvec3(problem.boundary[j]), v - dvec3(motion));
       const double wall = p.rest_density * volumes[j];
       // The wall answers with the particle's own pressure, carried to the wall's depth.
       const double depth = glm::dot(p.gravity, pair.apart);
       const double answer = with_pressure ? std::max(0.0, pressed(i) - depth / rho[i]) : 0.0;
       result[i] -= wall * (pressed(i) + answer) * pair.gradient;
-      result[i] += friction(p, pair, wall, rho[i]);
+      result[i] += friction(p, pair, wall, rho[i], motion.w);
     }
   }
   return result;

@@ -8,6 +8,7 @@
 #include "cpu_reference/sph/forces.h"
 #include "cpu_reference/sph/kernel.h"
 #include "cpu_reference/sph/neighbours.h"
+#include "cpu_reference/sph/viscosity.h"
 
 namespace parity::cpu {
 namespace {
@@ -60,9 +61,12 @@ SphState sph_step(const SphProblem& problem, double step, int count) {
   for (int k = 0; k < count; ++k) {
     const SphNeighbourLists lists =
         sph_neighbours(now.initial.positions, now.boundary, float(now.parameters.support));
-    const std::vector<dvec3> a = sph_accelerations(now, lists, sph_densities(now, lists));
+    const std::vector<double> densities = sph_densities(now, lists);
+    const std::vector<dvec3> a = sph_accelerations(now, lists, densities);
+    for (std::size_t i = 0; i < a.size(); ++i) velocities[i] += step * a[i];
+    if (now.parameters.implicit_viscosity)
+      velocities = sph_viscous_velocities(now, lists, densities, velocities, step);
     for (std::size_t i = 0; i < a.size(); ++i) {
-      velocities[i] += step * a[i];
       positions[i] += step * velocities[i];
       now.initial.positions[i] = vec3(positions[i]);
       now.initial.velocities[i] = vec3(velocities[i]);
@@ -82,7 +86,9 @@ double sph_stable_step(const SphParameters& p) {
         const Rates rates = rates_of(p, std::numbers::pi / p.spacing / waves * dvec3(x, y, z));
         const double w2 = std::pow(rates.wave * p.sound_speed, 2);
         const double g = rates.friction;
-        if (w2 + g > 0) smallest = std::min(smallest, 4 / (g + std::sqrt(g * g + 4 * w2)));
+        const double root = std::sqrt(g * g + 4 * w2);
+        if (!p.implicit_viscosity && w2 + g > 0) smallest = std::min(smallest, 4 / (g + root));
+        if (p.implicit_viscosity && w2 > 0) smallest = std::min(smallest, (g + root) / w2);
       }
   return smallest;
 }

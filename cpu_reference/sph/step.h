@@ -20,7 +20,7 @@ SphState sph_step(const SphProblem& problem, double step, int count);
 
 /// s, the largest stable step for small motion about the square or cubic lattice at rest, by its
 /// own waves: the largest of |sum V grad W sin(k x)| over wave vectors gives omega / c, and
-/// friction adds 2 g dt + (omega dt)^2 < 4.
+/// friction of rate g adds 2 g dt + (omega dt)^2 < 4, or, implicit, (omega dt)^2 < 4 + 2 g dt.
 ///
 /// Source: notes 10.1 (stability test), applied to notes 10.4.
 double sph_stable_step(const SphParameters& parameters);

@@ -105,7 +105,8 @@ SphConstants sph_constants(const SphProblem& problem) {
   const double d = p.dimensions;
   const double volume = std::pow(p.spacing, d);
   const double scale = normalisation(p.kernel, p.dimensions == 3) / std::pow(p.support, d);
-  const double laminar = 2 * (d + 2) * p.viscosity;
+  const double friction = 2 * (d + 2) * p.viscosity;
+  const double laminar = p.implicit_viscosity ? 0 : friction;
   const bool stiff = p.method == SphMethod::weakly_compressible;
   const double sound = stiff ? p.sound_speed : 0;
   const double artificial = p.artificial_viscosity * sound * p.support / 2;
@@ -120,6 +121,7 @@ SphConstants sph_constants(const SphProblem& problem) {
   c.rest_density = float(p.rest_density);
   c.sound_speed = float(p.sound_speed);
   c.laminar = float(laminar);
+  c.implicit = float(friction - laminar);
   c.artificial = float(artificial);
   c.tension = float(p.surface_tension * volume);
   c.softening = float(0.01 * p.support * p.support / 4);

@@ -17,6 +17,7 @@ void Forces::record(Commands& commands, const Neighbours& neighbours, const Dens
                      .places = densities.places(),
                      .motions = densities.motions(),
                      .boundary = neighbours.boundary(),
+                     .boundary_motions = neighbours.boundary_motions(),
                      .lists = neighbours.lists(),
                      .counts = neighbours.counts(),
                      .accelerations = accelerations_,

@@ -54,9 +54,12 @@ void CellSort::record(Commands& commands, BufferRef<SphConstants> constants,
   }
   commands.dispatch(cell_start_, {cell_count_ + 1},
                     {.keys = keys_, .starts = starts_, .count = count_, .cell_count = cell_count_});
+  record_gather(commands, positions, sorted_);
+}
+
+void CellSort::record_gather(Commands& commands, BufferRef<vec4> from, BufferRef<vec4> to) const {
   if (count_ > 0)
-    commands.dispatch(gather_, {count_},
-                      {.ids = ids_, .from = positions, .to = sorted_, .count = count_});
+    commands.dispatch(gather_, {count_}, {.ids = ids_, .from = from, .to = to, .count = count_});
 }
 
 Neighbours::Neighbours(Context& context, const SphProblem& problem, const SphConstants& constants)
@@ -67,21 +70,26 @@ Neighbours::Neighbours(Context& context, const SphProblem& problem, const SphCon
       neighbours_(context, shaders::sph_neighbours_comp,
                   kernel_of(std::uint32_t(problem.parameters.kernel))),
       boundary_(context, constants.boundary_count),
+      boundary_motions_(context, constants.boundary_count),
       lists_(context, std::size_t(constants.count) * constants.capacity),
       counts_(context, constants.count),
       densities_(context, constants.count) {
-  weigh_boundary(context, problem.boundary, std::uint32_t(problem.parameters.kernel));
+  weigh_boundary(context, problem);
 }
 
-void Neighbours::weigh_boundary(Context& context, const std::vector<vec3>& boundary,
-                                std::uint32_t kernel) {
-  const auto count = std::uint32_t(boundary.size());
+void Neighbours::weigh_boundary(Context& context, const SphProblem& problem) {
+  const auto count = std::uint32_t(problem.boundary.size());
   if (count == 0) return;
+  const auto kernel = std::uint32_t(problem.parameters.kernel);
   const Kernel<BoundaryVolumeArgs> weigh(context, shaders::sph_boundary_volume_comp,
                                          kernel_of(kernel));
-  const Buffer<vec4> positions(context, with_zero(boundary));
+  const Buffer<vec4> positions(context, with_zero(problem.boundary));
+  const Buffer<vec4> motions(context, problem.boundary_motions.empty()
+                                          ? std::vector<vec4>(count, vec4(0, 0, 0, 1))
+                                          : problem.boundary_motions);
   context.run([&](Commands& commands) {
     boundary_cells_.record(commands, constants_, positions);
+    boundary_cells_.record_gather(commands, motions, boundary_motions_);
     commands.dispatch(weigh, {count},
                       {.constants = constants_,
                        .boundary = boundary_cells_.sorted(),

@@ -20,6 +20,9 @@ class CellSort {
   /// Sorts `positions`, of which there are as many as the count.
   void record(Commands& commands, BufferRef<SphConstants> constants, BufferRef<vec4> positions);
 
+  /// Brings values of the points into their order.
+  void record_gather(Commands& commands, BufferRef<vec4> from, BufferRef<vec4> to) const;
+
   const Buffer<std::uint32_t>& ids() const { return ids_; }
   const Buffer<std::uint32_t>& starts() const { return starts_; }
   const Buffer<vec4>& sorted() const { return sorted_; }
@@ -54,6 +57,8 @@ class Neighbours {
   const CellSort& cells() const { return cells_; }
   /// Sorted; w: rest density times the volume that it stands for.
   const Buffer<vec4>& boundary() const { return boundary_; }
+  /// Sorted velocities; w: share of the viscosity.
+  const Buffer<vec4>& boundary_motions() const { return boundary_motions_; }
   const CellSort& boundary_cells() const { return boundary_cells_; }
   const Buffer<std::uint32_t>& lists() const { return lists_; }
   const Buffer<uvec2>& counts() const { return counts_; }
@@ -61,7 +66,7 @@ class Neighbours {
   const Buffer<float>& densities() const { return densities_; }
 
  private:
-  void weigh_boundary(Context& context, const std::vector<vec3>& boundary, std::uint32_t kernel);
+  void weigh_boundary(Context& context, const SphProblem& problem);
 
   std::uint32_t count_;
   Buffer<SphConstants> constants_;
@@ -69,6 +74,7 @@ class Neighbours {
   CellSort boundary_cells_;
   Kernel<NeighbourArgs> neighbours_;
   Buffer<vec4> boundary_;
+  Buffer<vec4> boundary_motions_;
   Buffer<std::uint32_t> lists_;
   Buffer<uvec2> counts_;
   Buffer<float> densities_;

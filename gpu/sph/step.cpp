@@ -44,6 +44,8 @@ SphStep::SphStep(Context& context, const SphProblem& problem)
       clock_buffer_(context, std::vector<SphClock>(1)) {
   if (problem.parameters.method == SphMethod::divergence_free)
     solver_.emplace(context, problem, sph_constants(problem));
+  if (problem.parameters.implicit_viscosity && problem.parameters.viscosity > 0)
+    viscosity_.emplace(context, problem, sph_constants(problem));
   write(problem.initial);
 }
 
@@ -83,6 +85,7 @@ SphReport SphStep::report() const {
           .steps = clock.steps,
           .iterations = solver.iterations,
           .compression = solver.average,
+          .viscous_iterations = viscosity_ ? viscosity_->solver().read()[0].iterations : 0,
           .crowded = clock.crowded};
 }
 
@@ -114,6 +117,10 @@ void SphStep::record(Commands& commands, double until) {
   forces_.record(commands, neighbours_, densities_);
   commands.pass("step");
   record_clock(commands, until);
+  if (viscosity_) {
+    commands.pass("viscosity");
+    viscosity_->record(commands, neighbours_, densities_, forces_.accelerations(), clock_buffer_);
+  }
   if (count_ > 0) record_motion(commands);
 }
 

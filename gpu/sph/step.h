@@ -4,19 +4,21 @@
 #include <vector>
 
 #include "gpu/sph/pressure.h"
+#include "gpu/sph/viscosity.h"
 
 namespace parity::gpu {
 
 /// What a run of steps came to.
 struct SphReport {
-  double time = 0;               ///< s
-  double last_step = 0;          ///< s
-  double max_speed = 0;          ///< m/s, before the last step
-  double max_density = 0;        ///< kg/m^3
-  std::uint32_t steps = 0;       ///< since the problem began or was written
-  std::uint32_t iterations = 0;  ///< of the pressure solver in the last step
-  double compression = 0;        ///< average, that the pressure solver left
-  std::uint32_t crowded = 0;     ///< times that a particle had more neighbours than its list holds
+  double time = 0;                       ///< s
+  double last_step = 0;                  ///< s
+  double max_speed = 0;                  ///< m/s, before the last step
+  double max_density = 0;                ///< kg/m^3
+  std::uint32_t steps = 0;               ///< since the problem began or was written
+  std::uint32_t iterations = 0;          ///< of the pressure solver in the last step
+  double compression = 0;                ///< average, that the pressure solver left
+  std::uint32_t viscous_iterations = 0;  ///< of the implicit viscosity's solver in the last step
+  std::uint32_t crowded = 0;  ///< times that a particle had more neighbours than its list holds
 };
 
 /// A particle fluid on the device: neighbours, densities, forces, step, without a word to the host,
@@ -25,7 +27,8 @@ struct SphReport {
 /// after any number of steps depends on the state before alone, bit for bit.
 ///
 /// Stable iff (fixed step, at rest) 2 g dt + (w dt)^2 < 4 for the fastest wave w and the strongest
-/// friction g of the particles; an adaptive step bounds both from above.
+/// friction g of the particles; an adaptive step bounds both from above. Implicit viscosity sets no
+/// bound.
 /// Accuracy: O(dt), and O(H^2) where neighbours are even.
 /// Source: notes 10.1, 10.4; Monaghan 1992, 2005; Akinci et al. 2012.
 class SphStep {
@@ -65,7 +68,8 @@ class SphStep {
   Kernel<ClockArgs> clock_;
   Kernel<IntegrateArgs> integrate_;
   Kernel<SolveEndArgs> solve_end_;
-  std::optional<PressureSolver> solver_;  ///< of the incompressible method
+  std::optional<PressureSolver> solver_;      ///< of the incompressible method
+  std::optional<ViscositySolver> viscosity_;  ///< if implicit
   Buffer<vec4> positions_;
   Buffer<vec4> velocities_;
   Buffer<float> densities_of_ids_;

@@ -21,8 +21,10 @@ void main() {
     const uint j = args.lists.at[k * args.count + i];
     sum += fluid_acceleration(c, place, motion, args.places.at[j], args.motions.at[j]);
   }
-  for (uint k = counts.x; k < listed; ++k)
-    sum += wall_acceleration(c, place, motion, args.boundary.at[args.lists.at[k * args.count + i]]);
+  for (uint k = counts.x; k < listed; ++k) {
+    const uint j = args.lists.at[k * args.count + i];
+    sum += wall_acceleration(c, place, motion, args.boundary.at[j], args.boundary_motions.at[j]);
+  }
   precise const vec3 acceleration = sum + c.gravity;
   args.accelerations.at[i] = vec4(acceleration, 0.0);
 }

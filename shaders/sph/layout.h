@@ -28,7 +28,8 @@ struct SphConstants {
   float mass;
   float rest_density;
   float sound_speed;
-  float laminar;       ///< 2 (d + 2) nu
+  float laminar;       ///< 2 (d + 2) nu of the explicit viscosity
+  float implicit;      ///< 2 (d + 2) nu of the implicit viscosity; one of the two is 0
   float artificial;    ///< alpha c h
   float tension;       ///< kappa times the volume at rest
   float softening;     ///< 0.01 h^2
@@ -135,6 +136,7 @@ struct ForceArgs {
   REF(vec4) places;
   REF(vec4) motions;
   REF(vec4) boundary;
+  REF(vec4) boundary_motions;  ///< sorted; w: share of the viscosity
   REF(uint) lists;
   REF(uvec2) counts;
   REF(vec4) accelerations;  ///< sorted
@@ -160,6 +162,77 @@ struct ClockArgs {
   float until;
   float until_rest;
   uint blocks;
+  uint padding;
+};
+
+/// How far the solver for the implicit viscosity has come: conjugate gradients.
+struct SphViscous {
+  uint running;
+  uint iterations;
+  float alpha;
+  float beta;
+  float gamma;   ///< residual squared
+  float square;  ///< of the solution
+};
+REF_TYPE(SphViscous, 4)
+
+struct ViscousBeginArgs {
+  REF(SphClock) clock;
+  REF(vec4) motions;
+  REF(vec4) accelerations;
+  REF(vec4) solution;
+  REF(vec4) direction;
+  REF(vec4) image;  ///< of the direction
+  REF(SphViscous) solver;
+  uint count;
+  uint padding;
+};
+
+/// `first`: writes what viscosity adds to `from`, walls moving; else from less that, walls at rest.
+struct ViscousApplyArgs {
+  REF(SphConstants) constants;
+  REF(SphClock) clock;
+  REF(vec4) places;
+  REF(vec4) boundary;
+  REF(vec4) boundary_motions;
+  REF(uint) lists;
+  REF(uvec2) counts;
+  REF(vec4) from;
+  REF(vec4) to;
+  REF(SphViscous) solver;
+  uint count;
+  uint first;
+};
+
+struct ViscousSumArgs {
+  REF(vec4) residual;
+  REF(vec4) product;
+  REF(vec4) solution;
+  REF(vec3) sums;  ///< of each block: r r, r A r, x x
+  REF(SphViscous) solver;
+  uint count;
+  uint block;
+  float tolerance;  ///< of the residual, relative to the solution
+  uint padding;
+};
+
+struct ViscousUpdateArgs {
+  REF(vec4) residual;
+  REF(vec4) product;
+  REF(vec4) solution;
+  REF(vec4) direction;
+  REF(vec4) image;
+  REF(SphViscous) solver;
+  uint count;
+  uint padding;
+};
+
+struct ViscousEndArgs {
+  REF(SphClock) clock;
+  REF(vec4) motions;
+  REF(vec4) solution;
+  REF(vec4) accelerations;
+  uint count;
   uint padding;
 };
 

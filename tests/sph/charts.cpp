@@ -377,5 +377,44 @@ const Registration viscosity_map = register_map({
                 }}},
 });
 
+const Registration implicit_map = register_map({
+    .name = "sph/stability_implicit",
+    .title = "The same box with implicit viscosity: speed after 150 steps over that at the start",
+    .x = {.name = "viscosity",
+          .unit = "m^2/s",
+          .low = 1e-3,
+          .high = 10,
+          .standard = 0.1,
+          .logarithmic = true},
+    .y = {.name = "step",
+          .unit = "s",
+          .low = 1e-4,
+          .high = 1,
+          .standard = 1e-2,
+          .logarithmic = true},
+    .value_label = "growth of speed",
+    .border = 10,
+    .columns = 14,
+    .rows = 14,
+    .value =
+        [](gpu::Context& context, double viscosity, double step) {
+          SphProblem problem = sph_test::closed_box(8, 10, viscosity);
+          problem.parameters.fixed_step = step;
+          problem.parameters.implicit_viscosity = true;
+          problem.parameters.max_iterations = 30;
+          return sph_test::speed_growth(context, problem, map_steps);
+        },
+    .theory = {{"implicit: (omega dt)^2 = 4 + 2 g dt",
+                [](double viscosity) {
+                  SphParameters p = sph_test::closed_box(8, 10, viscosity).parameters;
+                  p.implicit_viscosity = true;
+                  return cpu::sph_stable_step(p);
+                }},
+               {"explicit: (omega dt)^2 + 2 g dt = 4",
+                [](double viscosity) {
+                  return cpu::sph_stable_step(sph_test::closed_box(8, 10, viscosity).parameters);
+                }}},
+});
+
 }  // namespace
 }  // namespace parity

@@ -17,11 +17,20 @@ namespace parity {
 
 inline auto fields_of(const SphParameters*) {
   using P = SphParameters;
-  return std::tuple{&P::dimensions,   &P::spacing,         &P::support,
-                    &P::kernel,       &P::method,          &P::equation_of_state,
-                    &P::rest_density, &P::sound_speed,     &P::artificial_viscosity,
-                    &P::viscosity,    &P::surface_tension, &P::gravity,
-                    &P::fixed_step};
+  return std::tuple{&P::dimensions,
+                    &P::spacing,
+                    &P::support,
+                    &P::kernel,
+                    &P::method,
+                    &P::equation_of_state,
+                    &P::rest_density,
+                    &P::sound_speed,
+                    &P::artificial_viscosity,
+                    &P::viscosity,
+                    &P::surface_tension,
+                    &P::gravity,
+                    &P::fixed_step,
+                    &P::implicit_viscosity};
 }
 inline auto fields_of(const SphState*) {
   return std::tuple{&SphState::time, &SphState::positions, &SphState::velocities};
@@ -29,7 +38,7 @@ inline auto fields_of(const SphState*) {
 inline auto fields_of(const SphBox*) { return std::tuple{&SphBox::low, &SphBox::high}; }
 inline auto fields_of(const SphProblem*) {
   return std::tuple{&SphProblem::parameters, &SphProblem::initial, &SphProblem::boundary,
-                    &SphProblem::domain};
+                    &SphProblem::boundary_motions, &SphProblem::domain};
 }
 inline auto fields_of(const SphNeighbourLists*) {
   return std::tuple{&SphNeighbourLists::fluid, &SphNeighbourLists::walls};
@@ -150,6 +159,21 @@ Column settle_column(gpu::Context& context, const SphProblem& problem);
 /// A box without gravity in 2 dimensions, full of fluid 1 % too dense, so that it has pressure
 /// everywhere, walls on all sides, and random velocities of 1e-4 of the sound speed.
 SphProblem closed_box(int across, double sound_speed, double viscosity);
+
+/// Fluid on its lattice between two walls, `rows` of particles across, twelve times as long, its
+/// ends free; without waves, as the speed of sound is next to nothing; the upper wall slides at
+/// `speed`. The walls' particles, which do not slip, stand rows + 1 spacings apart, which are 1 m.
+SphProblem channel(int rows, double speed);
+
+/// What shear along the rows of a channel on its lattice meets, over the viscosity asked for: rows
+/// are tied to the next rows alone, and the sums are this times (u(+1) - 2 u + u(-1)) / s^2.
+double lattice_viscosity(const SphParameters& parameters);
+
+/// Mean velocity along the channel of each row's two particles in the middle.
+std::vector<double> profile_of(const SphProblem& channel, const SphState& state);
+
+/// s, the largest step that an explicit viscosity could take at rest.
+double viscous_step(const SphParameters& parameters);
 
 /// Largest speed after so many steps of the fixed length over that at the start; 1e30 beyond that.
 double speed_growth(gpu::Context& context, const SphProblem& problem, int steps);

@@ -1,3 +1,4 @@
+#include "cpu_reference/sph/step.h"
 #include "gpu/sph/step.h"
 #include "tests/sph/problems.h"
 
@@ -108,6 +109,59 @@ SphProblem closed_box(int across, double sound_speed, double viscosity) {
     problem.initial.velocities.push_back(velocity);
   }
   return problem;
+}
+
+SphProblem channel(int rows, double speed) {
+  SphProblem problem;
+  SphParameters& p = problem.parameters;
+  p.dimensions = 2;
+  p.spacing = 1.0 / (rows + 1);
+  p.support = 2 * p.spacing;
+  p.sound_speed = 1e-6;
+  p.artificial_viscosity = 0;
+  p.gravity = dvec3(0);
+  p.viscosity = 1;
+  p.implicit_viscosity = true;
+  const int columns = 12 * (rows + 1);
+  problem.domain = {dvec3(0), p.spacing * dvec3(columns, rows, 0)};
+  problem.initial.positions = fill_box(problem.domain, p.spacing, 2);
+  problem.initial.velocities.resize(problem.initial.positions.size());
+  for (int side = 0; side < 2; ++side)
+    for (int x = -2; x < columns + 2; ++x) {
+      problem.boundary.emplace_back(p.spacing * dvec3(x + 0.5, side == 0 ? -0.5 : rows + 0.5, 0));
+      problem.boundary_motions.emplace_back(side == 0 ? 0 : speed, 0, 0, 1);
+    }
+  return problem;
+}
+
+double lattice_viscosity(const SphParameters& p) {
+  // Of the neighbours in the next row only those two on the diagonals feel shear.
+  const double r = std::sqrt(2.0) * p.spacing, h = p.support / 2;
+  const double slope = cpu::sph_kernel_derivative(p.kernel, 2, r, p.support);
+  double density = 0;
+  for (int y = -1; y <= 1; ++y)
+    for (int x = -1; x <= 1; ++x)
+      density += p.spacing * p.spacing *
+                 cpu::sph_kernel(p.kernel, 2, p.spacing * std::hypot(x, y), p.support);
+  return -2 * 8 * std::pow(p.spacing, 6) / density * slope / r / (r * r + 0.01 * h * h);
+}
+
+std::vector<double> profile_of(const SphProblem& channel, const SphState& state) {
+  const double spacing = channel.parameters.spacing;
+  std::vector<double> profile(std::size_t(std::lround(channel.domain.high.y / spacing)));
+  for (std::size_t i = 0; i < state.positions.size(); ++i) {
+    const vec3& start = channel.initial.positions[i];
+    if (std::abs(start.x - channel.domain.high.x / 2) < spacing)
+      profile[std::size_t(start.y / spacing)] += double(state.velocities[i].x) / 2;
+  }
+  return profile;
+}
+
+double viscous_step(const SphParameters& parameters) {
+  SphParameters p = parameters;
+  p.implicit_viscosity = false;
+  p.sound_speed = 1e-6;
+  return cpu::sph_stable_step(p);
 }
 
 double speed_growth(gpu::Context& context, const SphProblem& problem, int steps) {

@@ -12,7 +12,16 @@ constexpr int steps = 5;
 SphProblem problem_of(const Setting& setting) {
   SphProblem problem = sph_test::tank_of(setting);
   problem.parameters.fixed_step = 0.2 * cpu::sph_stable_step(problem.parameters);
+  problem.parameters.implicit_viscosity = setting.count("implicit") != 0;
+  problem.parameters.viscosity_error = 1e-7;
   return problem;
+}
+
+std::vector<Axis> axes() {
+  std::vector<Axis> axes = sph_test::tank_axes();
+  axes.push_back(
+      {.name = "implicit", .low = 0, .high = 1, .standard = 0, .whole = true, .each = true});
+  return axes;
 }
 
 SphState on_device(gpu::Context& context, const SphProblem& problem) {
@@ -39,7 +48,7 @@ const Registration registration = register_stage<SphProblem, SphState>({
     .title = "Weakly compressible steps of a stirred tank",
     .source = "notes 10.1, 10.4; Monaghan 1992",
     .rows = {160, 168},
-    .axes = sph_test::tank_axes(),
+    .axes = axes(),
     .problem = problem_of,
     .cpu = {{.solve =
                  [](const SphProblem& p) {
