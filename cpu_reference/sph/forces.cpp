@@ -63,9 +63,11 @@ std::vector<dvec3> sum_accelerations(const SphProblem& problem, const SphNeighbo
           problem.boundary_motions.empty() ? dvec4(0, 0, 0, 1) : dvec4(problem.boundary_motions[j]);
       const Pair pair = pair_of(p, at - dvec3(problem.boundary[j]), v - dvec3(motion));
       const double wall = p.rest_density * volumes[j];
-      // The wall answers with the particle's own pressure, carried to the wall's depth.
+      // The wall answers with the particle's own pressure, carried to the wall's depth, within
+      // twice that: under no pressure nothing is held.
       const double depth = glm::dot(p.gravity, pair.apart);
-      const double answer = with_pressure ? std::max(0.0, pressed(i) - depth / rho[i]) : 0.0;
+      const double answer =
+          with_pressure ? std::clamp(pressed(i) - depth / rho[i], 0.0, 2 * pressed(i)) : 0.0;
       result[i] -= wall * (pressed(i) + answer) * pair.gradient;
       result[i] += friction(p, pair, wall, rho[i], motion.w);
     }

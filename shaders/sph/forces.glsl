@@ -27,13 +27,14 @@ vec3 fluid_acceleration(SphConstants c, vec4 place_i, vec4 motion_i, vec4 place_
 }
 
 /// From a wall particle, which answers with the pressure of the particle that it sees, at its own
-/// depth; wall.w: rest density times its volume; wall_motion.w: share of the viscosity. Source:
+/// depth, but with no more than twice that (what falls along a wall is not held); wall.w: rest density times its volume; wall_motion.w: share of the viscosity. Source:
 /// Adami et al. 2012, one to one.
 vec3 wall_acceleration(SphConstants c, vec4 place, vec4 motion, vec4 wall, vec4 wall_motion) {
   precise const vec3 d = place.xyz - wall.xyz;
   precise const float r2 = squared_length(d);
   precise const float slope = kernel_slope(r2, c.inverse_support, c.kernel_scale);
-  precise const float carried = max(motion.w - inner_product(c.gravity, d) / place.w, 0.0);
+  precise const float carried =
+      clamp(motion.w - inner_product(c.gravity, d) / place.w, 0.0, 2.0 * motion.w);
   const float answer = c.stiff != 0u ? carried : 0.0;
   precise const vec3 dv = motion.xyz - wall_motion.xyz;
   precise const float laminar = wall_motion.w * c.laminar;
