@@ -1,12 +1,17 @@
 # Compiles one shader: adds the extensions that every shader uses, runs glslang (a warning is an
 # error), the SPIR-V validator and optimiser, and writes the words as C++.
-#   cmake -DIN= -DOUT= -DNAME= -DSYMBOL= -DROOT= -DGLSLANG= -DSPIRV_VAL= -DSPIRV_OPT= -P compile.cmake
+# After `#pragma no_contraction` no sum or product may be fused, reordered or simplified, so that
+# what specialization constants leave out of a shader does not change how the rest of it rounds.
+#   cmake -DIN= -DOUT= -DNAME= -DSYMBOL= -DROOT= -DGLSLANG= -DSPIRV_VAL= -DSPIRV_OPT= -DSPIRV_DIS=
+#         -DSPIRV_AS= -P compile.cmake
 file(STRINGS "${IN}" first LIMIT_COUNT 1)
 if(NOT first STREQUAL "#version 460")
   message(FATAL_ERROR "${NAME}: the first line is '${first}', must be '#version 460'")
 endif()
 file(READ "${IN}" text)
 string(REPLACE "#version 460\n" "" text "${text}")
+string(FIND "${text}" "#pragma no_contraction\n" no_contraction)
+string(REPLACE "#pragma no_contraction\n" "\n" text "${text}")
 get_filename_component(extension "${IN}" LAST_EXT)
 set(full "${OUT}.full${extension}")
 file(WRITE "${full}" "#version 460
@@ -24,6 +29,17 @@ function(run_tool)
   endif()
 endfunction()
 run_tool(${GLSLANG} -V --quiet --target-env vulkan1.3 -I${ROOT} "${full}" -o "${OUT}.raw.spv" --depfile "${OUT}.d")
+if(NOT no_contraction EQUAL -1)
+  execute_process(COMMAND ${SPIRV_DIS} --raw-id "${OUT}.raw.spv" OUTPUT_VARIABLE listing)
+  string(REGEX MATCHALL "%[0-9]+ = Op(FAdd|FSub|FMul|FDiv|FNegate|Dot|VectorTimesScalar|MatrixTimesVector|VectorTimesMatrix|MatrixTimesScalar|MatrixTimesMatrix) " sums "${listing}")
+  list(TRANSFORM sums REPLACE "(%[0-9]+) = .*" "OpDecorate \\1 NoContraction\n")
+  list(JOIN sums "" sums)
+  string(FIND "${listing}" "OpDecorate " first_decoration)
+  string(SUBSTRING "${listing}" 0 ${first_decoration} before)
+  string(SUBSTRING "${listing}" ${first_decoration} -1 after)
+  file(WRITE "${OUT}.spvasm" "${before}${sums}${after}")
+  run_tool(${SPIRV_AS} --target-env vulkan1.3 --preserve-numeric-ids "${OUT}.spvasm" -o "${OUT}.raw.spv")
+endif()
 run_tool(${SPIRV_VAL} --target-env vulkan1.3 --scalar-block-layout "${OUT}.raw.spv")
 run_tool(${SPIRV_OPT} --target-env=vulkan1.3 -O "${OUT}.raw.spv" -o "${OUT}.spv")
 # The dependencies belong to the C++ file that is written here, and the shader itself is one.

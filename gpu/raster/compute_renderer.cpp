@@ -31,6 +31,7 @@ std::vector<Specialization> shade_constants(const SceneBuffers& scene, RenderOpt
   std::vector<Specialization> constants = scene_specializations(scene.features(), options);
   constants.push_back({10, std::uint32_t(frame.options.samples)});
   constants.push_back({11, std::uint32_t(frame.options.depth)});
+  constants.push_back({22, scene.features().layers});
   constants.push_back({23, frame.environment.has_value()});
   return constants;
 }

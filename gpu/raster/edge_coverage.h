@@ -6,8 +6,8 @@
 namespace parity::gpu {
 
 /// What covers each sample, by exact integer edge functions with the top-left rule, through the
-/// TileRasterizer. Triangles are clipped by the near and far planes, and where they are further than
-/// 16383 pixels from the middle of the picture.
+/// TileRasterizer. Triangles are clipped by the near and far planes, and where they are further
+/// than 16383 pixels from the middle of the picture.
 ///
 /// @throws std::invalid_argument  an index out of range, a size outside 1..16384, samples not 1, 2,
 ///                                4 or 8.

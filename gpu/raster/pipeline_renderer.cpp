@@ -64,7 +64,7 @@ Grid<T> grid(const Frame& frame, std::vector<T> values) {
 /// the rest leave nothing out.
 std::vector<Specialization> general_specializations(std::vector<Specialization> all) {
   std::erase_if(all, [](const Specialization& s) {
-    return s.id < 4 || s.id == 7 || (s.id > 8 && s.id < 14) || s.id == 15;
+    return s.id < 4 || s.id == 7 || (s.id > 8 && s.id < 14) || s.id == 15 || s.id == 22;
   });
   return all;
 }
@@ -80,8 +80,7 @@ std::vector<Specialization> scene_specializations(const SceneFeatures& features,
           {3, features.uv_pairs},
           {4, std::bit_cast<std::uint32_t>(largest)},
           {7, features.colors},
-          {13, features.unlit},
-          {22, features.layers}};
+          {13, features.unlit}};
 }
 
 PipelineRenderer::Targets::Targets(Context& context, const Frame& frame, RenderOptions options)
@@ -119,7 +118,8 @@ PipelineRenderer::Key PipelineRenderer::key_of(const Frame& frame, const SceneFr
           mode == AlphaMode::mask,
           data.has_placed_lights(),
           is_plain,
-          frame.environment.has_value()};
+          frame.environment.has_value(),
+          scene_.has_layers(draw.material)};
 }
 
 const RasterPipeline<SceneArgs>& PipelineRenderer::pipeline(const Key& key) {
@@ -143,6 +143,7 @@ const RasterPipeline<SceneArgs>& PipelineRenderer::pipeline(const Key& key) {
   options.specializations.push_back({12, key.blended});
   options.specializations.push_back({14, !key.blended});
   options.specializations.push_back({15, key.has_placed_lights});
+  options.specializations.push_back({22, key.layers});
   options.specializations.push_back({23, key.environment});
   if (options_.general) options.specializations = general_specializations(options.specializations);
   const ShaderCode& vertex =

@@ -45,6 +45,7 @@ class PipelineRenderer {
     bool has_placed_lights = false;
     bool is_plain = false;  ///< no attribute but positions and normals
     bool environment = false;
+    bool layers = false;  ///< the material has extensions
     auto operator<=>(const Key&) const = default;
   };
 

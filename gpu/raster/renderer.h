@@ -10,7 +10,7 @@ namespace parity::gpu {
 
 struct RenderOptions {
   bool elements = false;    ///< Picture::element too
-  bool general = false;     ///< leaves nothing out of the shaders; the same picture but for roundings
+  bool general = false;     ///< leaves nothing out of the shaders; the same picture bit by bit
   bool full_float = false;  ///< RGBA32F instead of RGBA16F; RGBA16F ends at 65504
 };
 

@@ -63,7 +63,7 @@ SceneMaterial without_textures(const Material& m) {
   return result;
 }
 
-bool has_layers(const Material& m) {
+bool is_layered(const Material& m) {
   return m.ior != 1.5f || m.specular.strength != 1 || m.specular.color != vec3(1) ||
          m.clearcoat.factor > 0 || m.sheen.color != vec3(0) || m.anisotropy.strength > 0 ||
          m.transmission.factor > 0 || m.iridescence.factor > 0;
@@ -152,12 +152,9 @@ void SceneBuffers::add_materials(Context& context, const Scene& scene) {
     add_material(context, scene, material, textures, materials);
   add_material(context, scene, Material{}, textures, materials);
   std::vector<SceneLayers> layers;
-  for (const Material& material : scene.materials) {
-    features_.layers |= has_layers(material);
-    layers.push_back(layers_of(material));
-  }
+  for (const Material& material : scene.materials) layers.push_back(layers_of(material));
   layers.push_back(layers_of(Material{}));
-  if (features_.layers) layers_ = Buffer<SceneLayers>(context, layers);
+  layers_ = Buffer<SceneLayers>(context, layers);
   materials_ = Buffer<SceneMaterial>(context, materials);
   textures_ = Buffer<SceneTexture>(context, textures);
 }
@@ -199,6 +196,8 @@ void SceneBuffers::add_material(Context& context, const Scene& scene, const Mate
   features_.uv_pairs = std::max(features_.uv_pairs, std::uint32_t((sets.size() + 1) / 2));
   alpha_modes_.push_back(is_blended(material) ? AlphaMode::blend : material.alpha_mode);
   double_sided_.push_back(material.double_sided);
+  has_layers_.push_back(!material.unlit && is_layered(material));
+  features_.layers |= has_layers_.back();
 }
 
 const SceneBuffers::Texels& SceneBuffers::texels(Context& context, const Scene& scene, int image,

@@ -54,6 +54,7 @@ class SceneBuffers {
   /// As scene.materials; -1 names the default. `blend` for all that is drawn over what is behind.
   AlphaMode alpha_mode(int material) const { return alpha_modes_[number(material)]; }
   bool double_sided(int material) const { return double_sided_[number(material)]; }
+  bool has_layers(int material) const { return has_layers_[number(material)]; }
   std::uint32_t number(int material) const {
     return material < 0 ? std::uint32_t(alpha_modes_.size() - 1) : std::uint32_t(material);
   }
@@ -92,6 +93,7 @@ class SceneBuffers {
   std::vector<std::vector<int>> uv_sets_;  ///< by material and slot
   std::vector<AlphaMode> alpha_modes_;     ///< by material, the default last
   std::vector<bool> double_sided_;
+  std::vector<bool> has_layers_;
   Buffer<SceneMaterial> materials_;
   Buffer<SceneTexture> textures_;
   Buffer<SceneLayers> layers_;

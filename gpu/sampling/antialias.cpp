@@ -41,6 +41,7 @@ std::vector<Specialization> refine_constants(const SceneBuffers& scene, DepthMod
   std::vector<Specialization> constants =
       scene_specializations(scene.features(), {.elements = false, .full_float = true});
   constants.push_back({11, std::uint32_t(depth)});
+  constants.push_back({22, scene.features().layers});
   constants.push_back({23, has_environment});
   return constants;
 }

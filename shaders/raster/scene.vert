@@ -1,4 +1,5 @@
 #version 460
+#pragma no_contraction
 #include "raster/scene_pull.glsl"
 
 // One vertex of the scene, pulled through references. Source: notes 2.6.

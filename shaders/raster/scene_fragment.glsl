@@ -27,10 +27,10 @@ Fragment plain_fragment() {
 
 // Colour (straight) and alpha of this fragment, unless it is cut out.
 vec4 finish(Fragment f) {
-  const vec4 result = shade_fragment(args, ids.x >> 2, (ids.x & draw_flag_unlit) != 0u, f);
+  const vec4 result = shade_fragment(args, ids.x >> draw_flag_bits, (ids.x & draw_flag_unlit) != 0u, f);
   if (cuts_out && result.a < 0.0) discard;
   if (in_order && !f.front) {
-    const uint flags = args.materials.at[ids.x >> 2].flags;
+    const uint flags = args.materials.at[ids.x >> draw_flag_bits].flags;
     if ((flags & material_flag_double_sided) == 0u && (ids.x & draw_flag_unlit) == 0u) discard;
   }
   return result;

@@ -53,11 +53,13 @@ Fragment weighted(Corners c, SceneDraw draw, uvec2 item, vec2 point, vec3 here, 
     f.position += here[k] * vertex_position(draw, draw.positions.at[v]);
     f.normal += here[k] * vertex_normal(draw, v);
     if (has_normal_maps) f.tangent += here[k] * vertex_tangent(draw, v);
-    f.color += here[k] * (has_colors ? vertex_color(draw, v) : vec4(1.0));
+    if (has_colors) f.color += here[k] * vertex_color(draw, v);
     if (has_textures && uv_pair_count > 0u) add_uv(f, 0, vertex_uv_pair(draw, 0u, v), here[k], dx[k], dy[k]);
     if (has_textures && uv_pair_count > 1u) add_uv(f, 1, vertex_uv_pair(draw, 1u, v), here[k], dx[k], dy[k]);
     if (has_textures && uv_pair_count > 2u) add_uv(f, 2, vertex_uv_pair(draw, 2u, v), here[k], dx[k], dy[k]);
   }
+  // Weights of white may add up to less.
+  if (!has_colors || (draw.flags & draw_flag_colors) == 0u) f.color = vec4(1.0);
   const vec3 area = homogeneous_weights(c, point);
   const bool counter_clockwise = area.x + area.y + area.z < 0.0;
   f.front = draw.corners != 3u || counter_clockwise != ((draw.flags & draw_flag_mirrored) != 0u);

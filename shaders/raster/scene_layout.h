@@ -32,6 +32,7 @@ const uint draw_flag_unlit = 2u;  // points and lines
 const uint draw_flag_normals = 4u;
 const uint draw_flag_tangents = 8u;
 const uint draw_flag_colors = 16u;
+const uint draw_flag_bits = 5u;   // so many are read where pixels are shaded
 const uint draw_flag_uvs = 256u;  // times 2^slot
 
 struct SceneMaterial {

@@ -1,4 +1,5 @@
 #version 460
+#pragma no_contraction
 #include "raster/scene_varyings.glsl"
 
 // One fragment of the scene, with logarithmic depth.

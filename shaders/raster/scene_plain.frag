@@ -1,4 +1,5 @@
 #version 460
+#pragma no_contraction
 #include "raster/scene_fragment.glsl"
 
 // One fragment of a scene without textures and vertex colours.

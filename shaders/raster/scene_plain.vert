@@ -1,4 +1,5 @@
 #version 460
+#pragma no_contraction
 #include "raster/scene_pull.glsl"
 
 // One vertex of a scene without textures and vertex colours: what is not written is not interpolated

@@ -30,7 +30,7 @@ Pulled pull_vertex() {
     vertex = element.y + vertex % corners;
   }
   SceneDraw draw = args.draws.at[d];
-  ids = uvec2(draw.material << 2 | (draw.flags & (draw_flag_mirrored | draw_flag_unlit)), 0u);
+  ids = uvec2(draw.material << draw_flag_bits | (draw.flags & ((1u << draw_flag_bits) - 1u)), 0u);
   if (pulling != 0u) {
     ids.y = draw.first_element + vertex / draw.corners + 1u;
     vertex = draw.indices.at[vertex];

@@ -133,26 +133,24 @@ vec3 mapped_normal(TangentFrame frame, vec3 texel, float scale) {
   return unit_or_zero(m.x * frame.tangent + m.y * frame.bitangent + m.z * frame.normal);
 }
 
-// What is common to all materials of a scene without layers.
-Microsurface base_surface(SceneMaterial material, Texels texels, vec3 base) {
+// What is common to all materials. The reflectances of its dielectric at normal incidence and at
+// grazing angles are 0.04 and 1 but for extensions.
+Microsurface base_surface(SceneMaterial material, Texels texels, vec3 base, vec3 dielectric,
+                          float dielectric_grazing) {
   const float metallic = material.metallic * texels.metallic_roughness.b;
   Microsurface m;
   m.diffuse = base * (1.0 - metallic);
-  m.reflectance = mix(vec3(0.04), base, metallic);
-  m.grazing = 1.0;
+  m.reflectance = dielectric * (1.0 - metallic) + base * metallic;
+  m.grazing = dielectric_grazing * (1.0 - metallic) + metallic;
   m.roughness = clamp(material.roughness * texels.metallic_roughness.g, 0.045, 1.0);
   m.bounces = metallic;
   m.albedo = vec3(0.0);
   return m;
 }
 
-Layers layers_of(SceneArgs args, SceneLayers from, uint flags, inout Microsurface m, TangentFrame frame, vec3 n,
-                 vec3 v, Texels texels, float metallic, vec3 base) {
+Layers layers_of(SceneArgs args, SceneLayers from, uint flags, inout Microsurface m,
+                 TangentFrame frame, vec3 n, vec3 v, Texels texels) {
   Layers y;
-  const float weight = from.specular * texels.specular.a;
-  const vec3 dielectric = min(from.specular_color * texels.specular.rgb, vec3(1.0)) * weight;
-  m.reflectance = dielectric * (1.0 - metallic) + base * metallic;
-  m.grazing = weight * (1.0 - metallic) + metallic;
   if (from.iridescence > 0.0) {
     const float thickness =
         from.film_thickness.x + (from.film_thickness.y - from.film_thickness.x) * texels.film.y;
@@ -244,11 +242,17 @@ vec4 lit_radiance(SceneArgs args, SceneMaterial material, uint index, Fragment f
   vec3 n = frame.normal;
   if (has_normal_maps && texels.bends) n = mapped_normal(frame, texels.normal, material.normal_scale);
   const vec3 v = args.orthographic != 0u ? args.backward : unit_or_zero(-f.position);
-  Microsurface m = base_surface(material, texels, base);
+  Microsurface m;
   Layers y;
-  if (has_layers)
-    y = layers_of(args, args.layers.at[index], material.flags, m, frame, n, v, texels,
-                  material.metallic * texels.metallic_roughness.b, base);
+  if (has_layers) {
+    SceneLayers layers = args.layers.at[index];
+    const float weight = layers.specular * texels.specular.a;
+    m = base_surface(material, texels, base,
+                     min(layers.specular_color * texels.specular.rgb, vec3(1.0)) * weight, weight);
+    y = layers_of(args, layers, material.flags, m, frame, n, v, texels);
+  } else {
+    m = base_surface(material, texels, base, vec3(0.04), 1.0);
+  }
   m.albedo = albedo_at(args.albedo_table, view_cosine(n, v), m.roughness);
   const float occlusion = 1.0 + material.occlusion_strength * (texels.occlusion - 1.0);
   const vec4 around = surrounded(args, m, y, n, v);

@@ -11,7 +11,8 @@ layout(location = 5) in vec4 uv[3];
 vec4 shade() {
   Fragment f = plain_fragment();
   if (has_normal_maps) f.tangent = tangent;
-  if (has_colors) f.color = color;
+  // White that is interpolated may round to less.
+  if (has_colors && (ids.x & draw_flag_colors) != 0u) f.color = color;
   [[unroll]] for (uint i = 0u; i < 3u; ++i) {
     if (!has_textures || i >= uv_pair_count) continue;
     f.uv[i] = uv[i];

@@ -1,4 +1,5 @@
 #version 460
+#pragma no_contraction
 #include "raster/scene_compute_layout.h"
 #include "raster/scene_interpolate.glsl"
 #include "raster/tile.glsl"
