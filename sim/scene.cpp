@@ -59,8 +59,10 @@ std::string side_fault(const SimScene& scene) {
       return name + ": a side is periodic if and only if the opposite one is";
     if (side.velocity[s / 2] != 0)
       return name + ".velocity: a wall may slide along itself only, not towards the fluid";
-    if (is_sph(scene.method) && side.kind != SimSideKind::slip && side.kind != SimSideKind::open)
-      return name + ": method " + name_of(scene.method) + " has slip and open sides only";
+    if (is_sph(scene.method) && side.kind == SimSideKind::periodic)
+      return name + ": method " + name_of(scene.method) + " has no periodic sides";
+    if (is_sph(scene.method) && side.kind == SimSideKind::open && s != 3)
+      return name + ": method " + name_of(scene.method) + " may be open at the top only";
   }
   return {};
 }

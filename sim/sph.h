@@ -14,9 +14,10 @@ namespace parity {
 /// Radial kernels W(r, H) that vanish from the support radius H on.
 enum class SphKernel : std::uint32_t { cubic_spline, poly6, spiky, wendland };
 
-/// How pressure comes about: from the density by an equation of state, or from the demand that
-/// no particle is denser than at rest at the end of the step.
-enum class SphMethod : std::uint32_t { weakly_compressible, divergence_free };
+/// How pressure comes about: from the density by an equation of state; from the demand that no
+/// particle is denser than at rest at the end of the step; or from that and the demand that no
+/// particle inside the fluid is being compressed when the step begins.
+enum class SphMethod : std::uint32_t { weakly_compressible, constant_density, divergence_free };
 
 /// Pressure of a density: c^2 (rho - rho_0) as in the notes, or Tait's
 /// c^2 rho_0 / 7 ((rho / rho_0)^7 - 1). Negative pressure counts as 0.
@@ -50,6 +51,10 @@ struct SphParameters {
 /// @throws std::invalid_argument  a number is not finite or out of its range; support is not in
 ///                                (1, 4] spacings.
 void check_sph_parameters(const SphParameters& parameters);
+
+/// Particles at least so dense, over the rest density, count as inside the fluid: on the lattice
+/// those at its surface have 0.85.
+constexpr double sph_inside_density = 0.9;
 
 /// kg; kg per metre of depth in 2 dimensions.
 double particle_mass(const SphParameters& parameters);

@@ -83,7 +83,7 @@ TEST(SimScene, RefusesEachFaultInOneLineWithItsPlace) {
       {"/domain/sides/top", "wet", "domain.sides.top is \"wet\""},
       {"/domain/sides/lid", "open", "domain.sides has the unknown key \"lid\""},
       {"/domain/sides/top", "periodic", "domain.sides.bottom: a side is periodic if and only if"},
-      {"/domain/sides/top", "no_slip", "domain.sides.top: method wcsph has slip and open"},
+      {"/domain/sides/left", "open", "domain.sides.left: method wcsph may be open at the top"},
       {"/resolution", 0, "resolution is 0, must be from 2.0 to 4096.0"},
       {"/resolution", 3.5, "resolution is 3.5, must be a whole number"},
       {"/resolution", 1e300, "resolution is 1e+300, must be from"},

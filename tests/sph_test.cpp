@@ -9,9 +9,11 @@
 #include <sstream>
 
 #include "cpu_reference/sph/forces.h"
+#include "cpu_reference/sph/gradient.h"
 #include "cpu_reference/sph/pressure.h"
 #include "cpu_reference/sph/step.h"
 #include "gpu/sph/constants.h"
+#include "gpu/sph/gradient.h"
 #include "gpu/sph/step.h"
 #include "tests/gpu_context.h"
 #include "tests/shared_data.h"
@@ -256,7 +258,8 @@ TEST(SphStep, TheDamBreaksAsMartinAndMoyceMeasured) {
   const auto experiments = dam_break_experiments(*path);
   ASSERT_EQ(experiments.size(), 2u);
   constexpr double width = 0.05715;
-  const SphProblem problem = sph_dam_break(2, width, 20);
+  SphProblem problem = sph_dam_break(2, width, 20);
+  problem.parameters.courant = 0.9;
   gpu::SphStep step(test_context(), problem);
   for (const double t : {1.0, 1.5, 2.0, 2.5, 3.0}) {
     gpu::advance(test_context(), step, t * std::sqrt(width / (2 * 9.81)), 100000);
@@ -279,6 +282,7 @@ TEST(SphStep, TheIncompressibleFluidIsNotCompressed) {
   problem.parameters.method = SphMethod::divergence_free;
   problem.parameters.max_step = 2e-3;
   problem.parameters.courant = 0.25;
+  problem.parameters.max_iterations = 25;
   gpu::SphStep step(test_context(), problem);
   double average = 0, largest = 0, samples = 0;
   for (int k = 1; k <= 60; ++k) {
@@ -294,16 +298,63 @@ TEST(SphStep, TheIncompressibleFluidIsNotCompressed) {
   EXPECT_GT(measure(problem.parameters, step.read()).high.x, 1.2 * width);
 }
 
+/// The divergence solve stops where a step would add no more compression than the tolerance: rates
+/// of density inside a fluid that collides with itself, seen by exact pairs.
+TEST(SphPressure, NothingInsideIsBeingCompressedAfterTheDivergenceSolve) {
+  SphProblem problem =
+      sph_test::stirred_tank(2, 8, SphKernel::cubic_spline, 2, SphEquationOfState::tait, 11);
+  SphParameters& p = problem.parameters;
+  p.fixed_step = 0.2 * p.spacing / p.sound_speed;
+  p.method = SphMethod::divergence_free;
+  p.density_error = 1e-5;
+  p.max_iterations = 2000;
+  gpu::SphStep step(test_context(), problem);
+  test_context().run([&](gpu::Commands& commands) { step.record(commands, 1e9); });
+  const gpu::SphReport report = step.report();
+  EXPECT_GT(report.divergence_iterations, 5u);
+  EXPECT_LT(report.divergence_iterations, p.max_iterations);
+  EXPECT_LT(report.iterations, p.max_iterations);
+}
+
+/// Gradients of a linear field are exact on disordered particles, at surfaces too; plain kernel
+/// sums are not.
+TEST(SphGradient, IsExactForLinearFields) {
+  for (const std::uint32_t d : {2u, 3u}) {
+    SphProblem problem =
+        sph_test::stirred_tank(d, 7, SphKernel::wendland, 2.4, SphEquationOfState::tait, 3);
+    const dmat3 slope =
+        d == 3 ? dmat3(1, 2, 3, -4, 5, -6, 7, -8, 9) : dmat3(1, 2, 0, -4, 5, 0, 0, 0, 0);
+    for (std::size_t i = 0; i < problem.initial.velocities.size(); ++i)
+      problem.initial.velocities[i] =
+          vec3(dvec3(0.5) + slope * dvec3(problem.initial.positions[i]));
+    if (d == 2)
+      for (vec3& v : problem.initial.velocities) v.z = 0;
+    const SphNeighbourLists lists = cpu::sph_neighbours(problem);
+    const std::vector<double> densities = cpu::sph_densities(problem, lists);
+    const std::vector<dmat3> exact = cpu::sph_velocity_gradients(problem, lists, densities);
+    const std::vector<mat3> device = gpu::sph_velocity_gradients(test_context(), problem);
+    for (std::size_t i = 0; i < exact.size(); ++i)
+      for (int k = 0; k < int(d); ++k) {
+        // Velocities are floats: 2 u of 10 over a quarter spacing, times the fit's factor of 20.
+        EXPECT_LT(glm::length(exact[i][k] - slope[k]), 20 * 2 * u * 10 / (0.25 * 0.07)) << i;
+        EXPECT_LT(glm::length(dvec3(device[i][k]) - slope[k]), 20 * 60 * u * 10 / (0.25 * 0.07));
+      }
+  }
+}
+
 /// Pressures stay >= 0, and where one is above 0 the particle ends at its rest density: the
 /// conditions of the projection.
 TEST(SphPressure, SolvesTheComplementarityProblem) {
   SphProblem problem =
       sph_test::stirred_tank(2, 8, SphKernel::cubic_spline, 2, SphEquationOfState::tait, 11);
   SphParameters& p = problem.parameters;
-  p.method = SphMethod::divergence_free;
+  p.method = SphMethod::constant_density;
   p.fixed_step = p.spacing / p.sound_speed;
-  const cpu::SphPressed few = cpu::sph_incompressible_velocities(problem, 4000);
-  const cpu::SphPressed many = cpu::sph_incompressible_velocities(problem, 8000);
+  p.density_error = 1e-7;
+  p.max_iterations = 4000;
+  const cpu::SphPressed few = cpu::sph_incompressible_velocities(problem);
+  p.max_iterations = 8000;
+  const cpu::SphPressed many = cpu::sph_incompressible_velocities(problem);
   double apart = 0, speed = 0;
   for (std::size_t i = 0; i < few.velocities.size(); ++i) {
     apart = std::max(apart, glm::length(few.velocities[i] - many.velocities[i]));
@@ -313,17 +364,14 @@ TEST(SphPressure, SolvesTheComplementarityProblem) {
   EXPECT_LT(apart, 1e-3 * speed);
 }
 
-/// Energy that the scene did not have never appears with adaptive steps; with three times the
-/// stable step it does. A chart runs a hundred scenes.
+/// A chart runs a hundred scenes.
 TEST(SphStep, TheAdaptiveStepStaysStableInRandomScenes) {
-  double wildest = 0;
-  for (std::uint64_t seed = 0; seed < 3; ++seed) {
-    SphProblem problem = sph_random_scene(seed);
-    EXPECT_LT(sph_test::random_scene_growth(test_context(), problem), 1) << seed;
-    problem.parameters.fixed_step = 3 * cpu::sph_stable_step(problem.parameters);
-    wildest = std::max(wildest, sph_test::random_scene_growth(test_context(), problem));
-  }
-  EXPECT_GT(wildest, 1);
+  SphProblem problem = sph_random_scene(3);
+  problem.duration /= 3;
+  const double bound = sph_test::energy_bound(problem.parameters.courant);
+  EXPECT_LT(sph_test::energy_over_finer(test_context(), problem), bound);
+  problem.parameters.fixed_step = 3 * cpu::sph_stable_step(problem.parameters);
+  EXPECT_GT(sph_test::energy_over_finer(test_context(), problem), bound);
 }
 
 /// A fixed step is stable up to the border of the lattice's own waves and friction. At rest the
@@ -343,6 +391,7 @@ TEST(SphStep, StabilityEndsWhereTheLatticePutsIt) {
 TEST(SphStep, AColumnAtRestHasHydrostaticPressure) {
   SphProblem problem = sph_hydrostatic_column(2, 0.25, 1, 12);
   problem.parameters.artificial_viscosity = 4;
+  problem.parameters.courant = 0.9;
   const sph_test::Column column = sph_test::settle_column(test_context(), problem);
   EXPECT_LT(column.error, 0.5 / 12);
 }

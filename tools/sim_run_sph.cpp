@@ -70,6 +70,20 @@ double sound_speed_of(const SimScene& scene) {
   return 10 * std::max({std::sqrt(2 * glm::length(scene.gravity) * top), fastest, 0.1});
 }
 
+/// Velocity and share of the viscosity of a wall particle: of the side that it stands outside of,
+/// of several the first that does not slip; solids do not slip.
+vec4 wall_motion(const SimScene& scene, const vec3& wall) {
+  bool is_outside = false;
+  for (int side = 0; side < 2 * scene.dimensions; ++side) {
+    const double at = double(wall[side / 2]);
+    if (side % 2 == 0 ? at > 0 : at < scene.size[side / 2]) continue;
+    is_outside = true;
+    if (scene.sides[side].kind == SimSideKind::no_slip)
+      return vec4(vec3(scene.sides[side].velocity), 1);
+  }
+  return vec4(0, 0, 0, is_outside ? 0 : 1);
+}
+
 SphProblem problem_of(const SimScene& scene) {
   SphProblem problem;
   SphParameters& p = problem.parameters;
@@ -98,6 +112,8 @@ SphProblem problem_of(const SimScene& scene) {
                                  ? cover_box({solid.shape.low, solid.shape.high}, p.spacing,
                                              p.dimensions, false, false)
                                  : cover_ball(solid.shape, p.spacing, scene.dimensions));
+  for (const vec3& wall : problem.boundary)
+    problem.boundary_motions.push_back(wall_motion(scene, wall));
   for (std::size_t i = 0; i < scene.liquid.size(); ++i) add_liquid(scene, i, problem);
   if (problem.initial.positions.empty())
     throw std::invalid_argument("liquid: solids take all of its room");
@@ -195,12 +211,14 @@ Simulation start_sph_on_device(const SimScene& scene, gpu::Context& context) {
 }
 
 Simulation start_sph_on_host(const SimScene& scene) {
-  if (scene.method != SimMethod::wcsph)
-    throw std::invalid_argument("method: the CPU reference steps wcsph only among these");
   const auto problem = std::make_shared<SphProblem>(problem_of(scene));
   const SphParameters parameters = problem->parameters;
+  SphParameters waves = parameters;  // incompressible fluids have none
+  if (parameters.method != SphMethod::weakly_compressible) waves.sound_speed = 0;
+  const double held =
+      0.25 * std::sqrt(parameters.support / 2 / std::max(glm::length(parameters.gravity), 1e-9));
   const double stable =
-      std::min(parameters.courant * cpu::sph_stable_step(parameters), parameters.max_step);
+      std::min({parameters.courant * cpu::sph_stable_step(waves), parameters.max_step, held});
   Simulation s;
   s.device = "CPU reference";
   s.particles = problem->initial.positions.size();

@@ -8,6 +8,7 @@
 #include "cpu_reference/sph/forces.h"
 #include "cpu_reference/sph/kernel.h"
 #include "cpu_reference/sph/neighbours.h"
+#include "cpu_reference/sph/pressure.h"
 #include "cpu_reference/sph/viscosity.h"
 
 namespace parity::cpu {
@@ -50,6 +51,23 @@ Rates rates_of(const SphParameters& p, const dvec3& k) {
   return {glm::length(wave), largest};
 }
 
+/// Velocities at the end of a step; the state's pressures become those of the step where they are
+/// solved for.
+std::vector<dvec3> kicked(SphProblem& now, const SphNeighbourLists& lists,
+                          const std::vector<dvec3>& velocities, double step) {
+  const std::vector<double> densities = sph_densities(now, lists);
+  if (now.parameters.method != SphMethod::weakly_compressible) {
+    SphPressed pressed = sph_pressed_velocities(now, lists, densities, velocities, step);
+    now.initial.pressures.assign(pressed.pressures.begin(), pressed.pressures.end());
+    return std::move(pressed.velocities);
+  }
+  std::vector<dvec3> result = sph_accelerations(now, lists, densities);
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] = velocities[i] + step * result[i];
+  if (now.parameters.implicit_viscosity && now.parameters.viscosity > 0)
+    result = sph_viscous_velocities(now, lists, densities, result, step);
+  return result;
+}
+
 }  // namespace
 
 SphState sph_step(const SphProblem& problem, double step, int count) {
@@ -61,12 +79,8 @@ SphState sph_step(const SphProblem& problem, double step, int count) {
   for (int k = 0; k < count; ++k) {
     const SphNeighbourLists lists =
         sph_neighbours(now.initial.positions, now.boundary, float(now.parameters.support));
-    const std::vector<double> densities = sph_densities(now, lists);
-    const std::vector<dvec3> a = sph_accelerations(now, lists, densities);
-    for (std::size_t i = 0; i < a.size(); ++i) velocities[i] += step * a[i];
-    if (now.parameters.implicit_viscosity)
-      velocities = sph_viscous_velocities(now, lists, densities, velocities, step);
-    for (std::size_t i = 0; i < a.size(); ++i) {
+    velocities = kicked(now, lists, velocities, step);
+    for (std::size_t i = 0; i < velocities.size(); ++i) {
       positions[i] += step * velocities[i];
       now.initial.positions[i] = vec3(positions[i]);
       now.initial.velocities[i] = vec3(velocities[i]);

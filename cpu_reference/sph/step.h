@@ -7,7 +7,8 @@
 namespace parity::cpu {
 
 /// Steps of a fixed length from the initial state: kick, then drift. Positions and velocities add
-/// up in double; forces are those between their float values.
+/// up in double; forces are those between their float values. Incompressible methods go on from the
+/// pressures of the state before.
 ///
 /// @param step   s, > 0.
 /// @param count  steps, >= 0.

@@ -16,6 +16,11 @@ std::uint32_t cell_count(const SphConstants& constants) {
   return cells.x * cells.y * cells.z;
 }
 
+/// Of a particle's list: blocks of 64 particles.
+std::size_t list_first(const SphConstants& constants, std::uint32_t i) {
+  return std::size_t(i / 64 * 64) * constants.capacity + i % 64;
+}
+
 std::vector<Specialization> kernel_of(std::uint32_t kernel) { return {{0, kernel}}; }
 
 }  // namespace
@@ -71,7 +76,7 @@ Neighbours::Neighbours(Context& context, const SphProblem& problem, const SphCon
                   kernel_of(std::uint32_t(problem.parameters.kernel))),
       boundary_(context, constants.boundary_count),
       boundary_motions_(context, constants.boundary_count),
-      lists_(context, std::size_t(constants.count) * constants.capacity),
+      lists_(context, list_first(constants, (constants.count + 63) / 64 * 64)),
       counts_(context, constants.count),
       densities_(context, constants.count) {
   weigh_boundary(context, problem);
@@ -134,8 +139,9 @@ SphNeighbourLists sph_neighbours(Context& context, const SphProblem& problem) {
                                         std::to_string(counts[i].y) +
                                         " neighbours, the lists hold " +
                                         std::to_string(constants.capacity));
+    const std::size_t first = list_first(constants, std::uint32_t(i));
     for (std::uint32_t k = 0; k < counts[i].y; ++k) {
-      const std::uint32_t j = lists[k * n + i];
+      const std::uint32_t j = lists[first + 64 * std::size_t(k)];
       if (k < counts[i].x)
         result.fluid[ids[i]].push_back(ids[j]);
       else

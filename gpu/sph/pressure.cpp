@@ -19,7 +19,9 @@ PressureSolver::PressureSolver(Context& context, const SphProblem& problem,
     : count_(constants.count),
       max_iterations_(problem.parameters.max_iterations),
       tolerance_(float(problem.parameters.density_error)),
+      is_divergence_free_(problem.parameters.method == SphMethod::divergence_free),
       begin_(context, shaders::sph_solve_begin_comp, kernel_of(problem)),
+      predict_(context, shaders::sph_solve_predict_comp),
       move_(context, shaders::sph_solve_move_comp, kernel_of(problem)),
       press_(context, shaders::sph_solve_press_comp, kernel_of(problem)),
       check_(context, shaders::sph_solve_check_comp),
@@ -28,12 +30,25 @@ PressureSolver::PressureSolver(Context& context, const SphProblem& problem,
       predicted_(context, constants.count),
       moved_(context, constants.count),
       sums_(context, (constants.count + block - 1) / block),
-      solver_(context, std::vector<SphSolver>(1)) {}
+      solver_(context, std::vector<SphSolver>(1)),
+      divergence_solver_(context, std::vector<SphSolver>(1)) {}
 
 void PressureSolver::record(Commands& commands, const Neighbours& neighbours,
                             const Densities& densities, const Forces& forces,
                             BufferRef<SphClock> clock, BufferRef<float> pressures) {
   if (count_ == 0) return;
+  SolveArgs args{.constants = neighbours.constants(),
+                 .clock = clock,
+                 .places = densities.places(),
+                 .boundary = neighbours.boundary(),
+                 .lists = neighbours.lists(),
+                 .counts = neighbours.counts(),
+                 .predicted = predicted_,
+                 .impulses = impulses_,
+                 .moved = moved_,
+                 .solver = is_divergence_free_ ? divergence_solver_ : solver_,
+                 .count = count_,
+                 .divergence = is_divergence_free_ ? 1u : 0u};
   commands.dispatch(begin_, {count_},
                     {.constants = neighbours.constants(),
                      .clock = clock,
@@ -47,34 +62,42 @@ void PressureSolver::record(Commands& commands, const Neighbours& neighbours,
                      .pressures = pressures,
                      .impulses = impulses_,
                      .predicted = predicted_,
+                     .solver = args.solver,
+                     .count = count_,
+                     .divergence = args.divergence});
+  record_rounds(commands, args);
+  if (!is_divergence_free_) return;
+  commands.dispatch(predict_, {count_},
+                    {.clock = clock,
+                     .ids = neighbours.cells().ids(),
+                     .places = densities.places(),
+                     .accelerations = forces.accelerations(),
+                     .moved = moved_,
+                     .pressures = pressures,
+                     .impulses = impulses_,
+                     .predicted = predicted_,
                      .solver = solver_,
                      .count = count_});
-  const SolveArgs args{.constants = neighbours.constants(),
-                       .clock = clock,
-                       .places = densities.places(),
-                       .boundary = neighbours.boundary(),
-                       .lists = neighbours.lists(),
-                       .counts = neighbours.counts(),
-                       .predicted = predicted_,
-                       .impulses = impulses_,
-                       .moved = moved_,
-                       .solver = solver_,
-                       .count = count_};
-  for (std::uint32_t k = 0; k < max_iterations_; ++k) record_round(commands, args);
+  args.solver = solver_;
+  args.divergence = 0;
+  record_rounds(commands, args);
 }
 
-void PressureSolver::record_round(Commands& commands, const SolveArgs& args) {
+void PressureSolver::record_rounds(Commands& commands, const SolveArgs& args) {
   const std::uint32_t blocks = (count_ + block - 1) / block;
   const SolveCheckArgs check{.moved = moved_,
                              .sums = sums_,
-                             .solver = solver_,
+                             .solver = args.solver,
                              .count = count_,
                              .block = block,
-                             .tolerance = tolerance_};
-  commands.dispatch(move_, {count_}, args);
-  commands.dispatch(press_, {count_}, args);
-  commands.dispatch(check_, {blocks}, check);
-  commands.dispatch(stop_, {1}, check);
+                             .tolerance = tolerance_,
+                             .least = args.divergence != 0 ? 1u : 2u};
+  for (std::uint32_t k = 0; k < max_iterations_; ++k) {
+    commands.dispatch(move_, {count_}, args);
+    commands.dispatch(press_, {count_}, args);
+    commands.dispatch(check_, {blocks}, check);
+    commands.dispatch(stop_, {1}, check);
+  }
 }
 
 std::vector<vec3> sph_incompressible_velocities(Context& context, const SphProblem& problem) {

@@ -10,9 +10,11 @@ namespace parity::gpu {
 ///
 /// Converges: the system is symmetric and positive semi-definite; Jacobi steps of one half of the
 /// diagonal, from the pressures of the step before.
-/// Source: Bender & Koschier 2015 (DFSPH, its constant-density solver); Ihmsen et al. 2014.
+/// Source: Bender & Koschier 2015, 2017 (DFSPH); Ihmsen et al. 2014.
+/// With SphMethod::divergence_free the same is done before for the rate of density of particles
+/// inside the fluid, from no pressure, until a step would add no more compression than that.
 /// Differs from the papers: pressures, not their increments, are the unknowns, so that they can
-/// fall again; the wall share of boundary volumes; no second solve for the rate of density.
+/// fall again; the wall share of boundary volumes; which particles are inside is told by density.
 class PressureSolver {
  public:
   PressureSolver(Context& context, const SphProblem& problem, const SphConstants& constants);
@@ -29,14 +31,18 @@ class PressureSolver {
   /// Sorted: step times pressure over density squared.
   const Buffer<float>& impulses() const { return impulses_; }
   const Buffer<SphSolver>& solver() const { return solver_; }
+  /// Of the divergence solve.
+  const Buffer<SphSolver>& divergence_solver() const { return divergence_solver_; }
 
  private:
-  void record_round(Commands& commands, const SolveArgs& args);
+  void record_rounds(Commands& commands, const SolveArgs& args);
 
   std::uint32_t count_;
   std::uint32_t max_iterations_;
   float tolerance_;
+  bool is_divergence_free_;
   Kernel<SolveBeginArgs> begin_;
+  Kernel<SolvePredictArgs> predict_;
   Kernel<SolveArgs> move_;
   Kernel<SolveArgs> press_;
   Kernel<SolveCheckArgs> check_;
@@ -46,6 +52,7 @@ class PressureSolver {
   Buffer<vec4> moved_;
   Buffer<vec2> sums_;
   Buffer<SphSolver> solver_;
+  Buffer<SphSolver> divergence_solver_;
 };
 
 /// Velocities after one step of the parameters' fixed length, m/s, by the order of the particles.

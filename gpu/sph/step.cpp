@@ -42,7 +42,7 @@ SphStep::SphStep(Context& context, const SphProblem& problem)
       pressures_(context, count_),
       block_limits_(context, blocks_),
       clock_buffer_(context, std::vector<SphClock>(1)) {
-  if (problem.parameters.method == SphMethod::divergence_free)
+  if (problem.parameters.method != SphMethod::weakly_compressible)
     solver_.emplace(context, problem, sph_constants(problem));
   if (problem.parameters.implicit_viscosity && problem.parameters.viscosity > 0)
     viscosity_.emplace(context, problem, sph_constants(problem));
@@ -85,6 +85,7 @@ SphReport SphStep::report() const {
           .steps = clock.steps,
           .iterations = solver.iterations,
           .compression = solver.average,
+          .divergence_iterations = solver_ ? solver_->divergence_solver().read()[0].iterations : 0,
           .viscous_iterations = viscosity_ ? viscosity_->solver().read()[0].iterations : 0,
           .crowded = clock.crowded};
 }

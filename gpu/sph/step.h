@@ -10,19 +10,20 @@ namespace parity::gpu {
 
 /// What a run of steps came to.
 struct SphReport {
-  double time = 0;                       ///< s
-  double last_step = 0;                  ///< s
-  double max_speed = 0;                  ///< m/s, before the last step
-  double max_density = 0;                ///< kg/m^3
-  std::uint32_t steps = 0;               ///< since the problem began or was written
-  std::uint32_t iterations = 0;          ///< of the pressure solver in the last step
-  double compression = 0;                ///< average, that the pressure solver left
-  std::uint32_t viscous_iterations = 0;  ///< of the implicit viscosity's solver in the last step
+  double time = 0;                          ///< s
+  double last_step = 0;                     ///< s
+  double max_speed = 0;                     ///< m/s, before the last step
+  double max_density = 0;                   ///< kg/m^3
+  std::uint32_t steps = 0;                  ///< since the problem began or was written
+  std::uint32_t iterations = 0;             ///< of the pressure solver in the last step
+  double compression = 0;                   ///< average, that the pressure solver left
+  std::uint32_t divergence_iterations = 0;  ///< of the divergence solve
+  std::uint32_t viscous_iterations = 0;     ///< of the implicit viscosity's solver in the last step
   std::uint32_t crowded = 0;  ///< times that a particle had more neighbours than its list holds
 };
 
 /// A particle fluid on the device: neighbours, densities, forces, step, without a word to the host,
-/// weakly compressible or (divergence_free) with the pressures of PressureSolver.
+/// weakly compressible or with the pressures of PressureSolver.
 /// The step adapts to waves, speed, force and viscosity unless the parameters fix it. The state
 /// after any number of steps depends on the state before alone, bit for bit.
 ///

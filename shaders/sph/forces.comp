@@ -1,6 +1,7 @@
 #version 460
 #include "sph/layout.h"
 #include "sph/kernel.glsl"
+#include "sph/lists.glsl"
 #include "sph/forces.glsl"
 
 // Acceleration of a particle by pressure, viscosity, surface tension, walls and gravity; one thread
@@ -16,13 +17,14 @@ void main() {
   const vec4 motion = args.motions.at[i];
   const uvec2 counts = args.counts.at[i];
   const uint listed = min(counts.y, c.capacity);
+  const uint first = list_first(c.capacity, i);
   precise vec3 sum = vec3(0.0);
   for (uint k = 0u; k < counts.x; ++k) {
-    const uint j = args.lists.at[k * args.count + i];
+    const uint j = args.lists.at[first + k * list_stride];
     sum += fluid_acceleration(c, place, motion, args.places.at[j], args.motions.at[j]);
   }
   for (uint k = counts.x; k < listed; ++k) {
-    const uint j = args.lists.at[k * args.count + i];
+    const uint j = args.lists.at[first + k * list_stride];
     sum += wall_acceleration(c, place, motion, args.boundary.at[j], args.boundary_motions.at[j]);
   }
   precise const vec3 acceleration = sum + c.gravity;

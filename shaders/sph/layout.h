@@ -95,8 +95,8 @@ struct GatherArgs {
   uint padding;
 };
 
-/// Lists stand column by column: neighbour k of particle i at k * count + i; first the fluid's,
-/// then the walls'.
+/// Lists stand in blocks of 64 particles, inside them column by column: neighbour k of particle i at
+/// (i - i % 64) * capacity + 64 k + i % 64; first the fluid's, then the walls'.
 struct NeighbourArgs {
   REF(SphConstants) constants;
   REF(vec4) positions;  ///< sorted
@@ -260,7 +260,7 @@ struct SolveBeginArgs {
   REF(vec4) predicted;   ///< velocities without pressure; w: 1 / diagonal
   REF(SphSolver) solver;
   uint count;
-  uint padding;
+  uint divergence;  ///< 1: begin with no pressure and no acceleration
 };
 
 struct SolveArgs {
@@ -275,7 +275,7 @@ struct SolveArgs {
   REF(vec4) moved;  ///< velocities with pressure; w: predicted compression
   REF(SphSolver) solver;
   uint count;
-  uint padding;
+  uint divergence;  ///< 1: against the rate of density alone, inside the fluid
 };
 
 struct SolveCheckArgs {
@@ -285,6 +285,33 @@ struct SolveCheckArgs {
   uint count;
   uint block;
   float tolerance;
+  uint least;  ///< rounds to take
+};
+
+struct SolvePredictArgs {
+  REF(SphClock) clock;
+  REF(uint) ids;
+  REF(vec4) places;
+  REF(vec4) accelerations;
+  REF(vec4) moved;
+  REF(float) pressures;  ///< by id, Pa
+  REF(float) impulses;
+  REF(vec4) predicted;
+  REF(SphSolver) solver;
+  uint count;
+  uint padding;
+};
+
+/// Of a vector field, by corrected kernels; columns: derivatives along x, y, z.
+struct GradientArgs {
+  REF(SphConstants) constants;
+  REF(vec4) places;
+  REF(vec4) field;  ///< sorted
+  REF(uint) lists;
+  REF(uvec2) counts;
+  REF(uint) ids;
+  REF(mat3) gradients;  ///< by id
+  uint count;
   uint padding;
 };
 

@@ -2,6 +2,7 @@
 #include "sph/layout.h"
 #include "sph/cells.glsl"
 #include "sph/kernel.glsl"
+#include "sph/lists.glsl"
 
 // Lists the particles and the wall particles closer than the support, in sorted order, and sums the
 // density over them, as long as they are at hand; one thread a particle. Counts go on beyond the
@@ -15,6 +16,7 @@ void main() {
   const SphGrid grid = args.constants.at[0].grid;
   const float support = args.constants.at[0].support;
   const uint capacity = args.constants.at[0].capacity;
+  const uint first = list_first(capacity, i);
   precise const float reach = support * support;
   const vec3 p = args.positions.at[i].xyz;
   const ivec3 cell = cell_of(grid, p);
@@ -32,7 +34,7 @@ void main() {
         const float r2 = squared_length(d);
         sum += kernel_value(r2, inverse_support, scale);
         if (r2 < reach && j != i) {
-          if (found < capacity) args.lists.at[found * args.count + i] = j;
+          if (found < capacity) args.lists.at[first + found * list_stride] = j;
           ++found;
         }
       }
@@ -49,7 +51,7 @@ void main() {
           const float r2 = squared_length(d);
           walls += wall.w * kernel_value(r2, inverse_support, scale);
           if (r2 < reach) {
-            if (found < capacity) args.lists.at[found * args.count + i] = j;
+            if (found < capacity) args.lists.at[first + found * list_stride] = j;
             ++found;
           }
         }

@@ -1,6 +1,7 @@
 #version 460
 #include "sph/layout.h"
 #include "sph/kernel.glsl"
+#include "sph/lists.glsl"
 #include "sph/solve.glsl"
 
 // Velocity of a particle after the impulses of pressure; equal and opposite between particles. One
@@ -16,15 +17,16 @@ void main() {
   const float impulse = args.impulses.at[i];
   const uvec2 counts = args.counts.at[i];
   const uint listed = min(counts.y, c.capacity);
+  const uint first = list_first(c.capacity, i);
   precise vec3 sum = vec3(0.0);
   for (uint k = 0u; k < counts.x; ++k) {
-    const uint j = args.lists.at[k * args.count + i];
+    const uint j = args.lists.at[first + k * list_stride];
     precise const vec3 d = p - args.places.at[j].xyz;
     precise const float strength = c.mass * (impulse + args.impulses.at[j]);
     sum += strength * kernel_gradient(c, d);
   }
   for (uint k = counts.x; k < listed; ++k) {
-    const vec4 wall = args.boundary.at[args.lists.at[k * args.count + i]];
+    const vec4 wall = args.boundary.at[args.lists.at[first + k * list_stride]];
     precise const vec3 d = p - wall.xyz;
     sum += wall.w * impulse * kernel_gradient(c, d);
   }

@@ -2,7 +2,7 @@
 #include "sph/layout.h"
 
 // Stops the solver where the average compression is within the tolerance and the largest within ten
-// times that, but not before two rounds; one thread.
+// times that, but not before the least rounds; one thread.
 layout(local_size_x = 64) in;
 layout(scalar, push_constant) uniform Push { SolveCheckArgs args; };
 
@@ -20,7 +20,7 @@ void main() {
   solver.iterations += 1u;
   solver.average = sum / float(args.count);
   solver.largest = largest;
-  if (solver.iterations >= 2u && solver.average <= args.tolerance &&
+  if (solver.iterations >= args.least && solver.average <= args.tolerance &&
       largest <= 10.0 * args.tolerance)
     solver.running = 0u;
   args.solver.at[0] = solver;

@@ -1,6 +1,7 @@
 #version 460
 #include "sph/layout.h"
 #include "sph/kernel.glsl"
+#include "sph/lists.glsl"
 #include "sph/viscosity.glsl"
 
 // The matrix of the implicit viscosity times a velocity, matrix-free; or, first, the residual of the
@@ -17,15 +18,16 @@ void main() {
   const vec3 x = args.from.at[i].xyz;
   const uvec2 counts = args.counts.at[i];
   const uint listed = min(counts.y, c.capacity);
+  const uint first = list_first(c.capacity, i);
   precise vec3 sum = vec3(0.0);
   for (uint k = 0u; k < counts.x; ++k) {
-    const uint j = args.lists.at[k * args.count + i];
+    const uint j = args.lists.at[first + k * list_stride];
     const vec4 other = args.places.at[j];
     precise const float weight = 2.0 * c.mass / (place.w + other.w);
     sum += viscous_acceleration(c, place.xyz - other.xyz, x - args.from.at[j].xyz, weight);
   }
   for (uint k = counts.x; k < listed; ++k) {
-    const uint j = args.lists.at[k * args.count + i];
+    const uint j = args.lists.at[first + k * list_stride];
     const vec4 wall = args.boundary.at[j];
     const vec4 motion = args.boundary_motions.at[j];
     const vec3 dv = args.first != 0u ? x - motion.xyz : x;

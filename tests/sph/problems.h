@@ -143,9 +143,18 @@ inline double acceleration_bound(const SphProblem& problem) {
          2 * u * glm::length(p.gravity);
 }
 
-/// How far a run of a random scene gets towards instability, > 1: there. Its energy over what it
-/// has to begin with: motion, height above the lowest corner, compression, and surfaces.
-double random_scene_growth(gpu::Context& context, const SphProblem& problem);
+/// Largest energy at eight times of a run: motion, height above the lowest corner, compression;
+/// 1e30 if it breaks down.
+double peak_energy(gpu::Context& context, const SphProblem& problem);
+
+/// That over the same of adaptive steps a quarter as long.
+double energy_over_finer(gpu::Context& context, const SphProblem& problem);
+
+/// The most that energy_over_finer may be of a stable run. Kick and drift keep not the energy of a
+/// wave, E = (v^2 + w^2 x^2) / 2, but E - dt w^2 x v / 2, so E stays within (1 + q) / (1 - q) of
+/// what it was, q = w dt / 2; an adaptive step keeps q within its Courant number for the fastest
+/// wave of all, and friction only takes. The finer run may be as much too low at a quarter of that.
+double energy_bound(double courant);
 
 /// A column's pressure after it has come to rest, averaged over layers and over a period of its
 /// bounce.

@@ -15,11 +15,10 @@ double height_energy(const SphProblem& problem, const SphMeasures& measures) {
   return measures.potential_energy - lowest;
 }
 
-/// What lies in the compression of fluid and walls at the start: integral of p / rho^2 from rest.
-double compression_energy(gpu::Context& context, const SphProblem& problem) {
-  const SphParameters& p = problem.parameters;
+/// What lies in the compression of the fluid: integral of p / rho^2 from rest.
+double compression_energy(const SphParameters& p, std::span<const float> densities) {
   double energy = 0;
-  for (const float density : gpu::sph_densities(context, problem)) {
+  for (const float density : densities) {
     const double end = std::max(double(density), p.rest_density);
     const double middle = (end + p.rest_density) / 2;
     const auto push = [&](double rho) { return cpu::sph_pressure(p, rho) / (rho * rho); };
@@ -30,27 +29,35 @@ double compression_energy(gpu::Context& context, const SphProblem& problem) {
 
 }  // namespace
 
-double random_scene_growth(gpu::Context& context, const SphProblem& problem) {
+double peak_energy(gpu::Context& context, const SphProblem& problem) {
+  constexpr int looks = 8;
   const SphParameters& p = problem.parameters;
-  const SphMeasures start = measure(p, problem.initial);
-  const double surface = p.surface_tension * p.support * p.support * start.mass;
-  // The walls' answer is no potential: they may give a quarter. It does not shrink with the step,
-  // as what instability gives would.
-  const double budget = 1.25 * (start.kinetic_energy + height_energy(problem, start) + surface +
-                                compression_energy(context, problem));
   gpu::SphStep step(context, problem);
-  double worst = 0;
+  double peak = 0;
   try {
-    for (int k = 1; k <= 4; ++k) {
-      gpu::advance(context, step, problem.duration * k / 4, 20000);
-      const double energy = measure(p, step.read()).kinetic_energy;
+    for (int k = 1; k <= looks; ++k) {
+      gpu::advance(context, step, problem.duration * k / looks, 20000);
+      const SphMeasures measures = measure(p, step.read());
+      const double energy = measures.kinetic_energy + height_energy(problem, measures) +
+                            compression_energy(p, step.densities().read());
       if (!std::isfinite(energy)) return 1e30;
-      worst = std::max(worst, energy / budget);
+      peak = std::max(peak, energy);
     }
   } catch (const gpu::Error&) {
     return 1e30;
   }
-  return worst;
+  return peak;
+}
+
+double energy_over_finer(gpu::Context& context, const SphProblem& problem) {
+  SphProblem finer = problem;
+  finer.parameters.fixed_step = 0;
+  finer.parameters.courant /= 4;
+  return std::min(peak_energy(context, problem) / peak_energy(context, finer), 1e4);
+}
+
+double energy_bound(double courant) {
+  return (1 + courant) / (1 - courant) * (1 + courant / 4) / (1 - courant / 4);
 }
 
 Column settle_column(gpu::Context& context, const SphProblem& problem) {

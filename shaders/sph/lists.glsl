@@ -1,0 +1,7 @@
+// Where neighbours stand: blocks of 64 particles, so that all of a workgroup's lists lie together,
+// and inside them neighbour by neighbour, so that its threads read side by side.
+
+/// Place of the first neighbour of particle i; the next stands list_stride further.
+uint list_first(uint capacity, uint i) { return (i & ~63u) * capacity + (i & 63u); }
+
+const uint list_stride = 64u;
