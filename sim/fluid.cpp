@@ -139,6 +139,8 @@ std::vector<CellType> cell_types(const FluidProblem& problem, const FluidState& 
       room += open[std::size_t(axis)](cell) + open[std::size_t(axis)](cell + axis_step(axis));
     if (room == 0) types[index.index(cell.x, cell.y, cell.z)] = CellType::solid;
   });
+  for (std::size_t i = 0; i < state.active.size(); ++i)
+    if (state.active[i] == 0) types[i] = CellType::air;
   return types;
 }
 

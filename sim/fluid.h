@@ -92,6 +92,10 @@ struct FluidParameters {
   double max_step = 0.05;             ///< s, of an adaptive step
   double divergence = 1e-3;           ///< 1/s, largest that the projection may leave
   std::uint32_t max_iterations = 30;  ///< of the pressure solver, a projection
+  bool sparse = false;                ///< only active cells are computed: active_cells
+  double busy_smoke = 1e-3;           ///< density, what makes a cell busy
+  double busy_heat = 0.5;             ///< K
+  double busy_speed = 0.1;            ///< m/s along an axis
 };
 
 enum class SolidShape : std::uint32_t { sphere, box };
@@ -130,6 +134,7 @@ struct FluidState {
   Field smoke;          ///< density, 0 to 1 as a rule
   Field temperature;    ///< K above the surroundings
   LiquidParticles particles;
+  std::vector<std::uint8_t> active;  ///< of each cell, in the last step; empty: all
 };
 
 struct FluidProblem {
@@ -173,8 +178,27 @@ FaceFields boundary_velocity(const FluidDomain& domain, const std::vector<FluidS
                              double time);
 
 /// Cells without an open face are solid. The others are fluid; of a liquid only those in which a
-/// particle is, the rest is air.
+/// particle is, the rest is air. Cells that are not active are air whatever they hold.
 std::vector<CellType> cell_types(const FluidProblem& problem, const FluidState& state);
+
+/// Cells along the sides of the tiles and blocks of a sparse fluid; those of flat domains are one
+/// cell thick.
+constexpr int fluid_tile = 8;
+constexpr int fluid_block = 4;
+
+/// The cells that the step from a state on computes: those of tiles that hold a busy cell or lie
+/// within a block of one. Busy is what holds more smoke, heat or speed than the parameters say,
+/// what is in a source, and of a liquid what holds a particle. Tiles and blocks begin at the
+/// origin.
+///
+/// What lies outside is air at rest under pressure 0, without smoke and heat: whatever was there is
+/// dropped, which is never more than the parameters allow. Faces move if a cell beside them is
+/// active. For a liquid that is no approximation. For smoke it stands for open air around the
+/// plume; the walls of a box are felt only where they touch active tiles.
+std::vector<std::uint8_t> active_cells(const FluidProblem& problem, const FluidState& state);
+
+/// Eight values a tile, x fastest: a block that a source reaches into is 1.
+std::vector<std::uint32_t> source_blocks(const FluidProblem& problem);
 
 /// Position of the point (x, y, z) of a field; `axis` 0 to 2 for face fields, -1 for cells.
 dvec3 point_position(const FluidDomain& domain, int axis, ivec3 point);

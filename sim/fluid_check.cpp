@@ -67,6 +67,14 @@ void check_parameters(const FluidParameters& p) {
   require_at_least("fixed_step", p.fixed_step, 0);
   require_positive("max_step", p.max_step);
   require_positive("divergence", p.divergence);
+  require_at_least("busy_smoke", p.busy_smoke, 0);
+  require_at_least("busy_heat", p.busy_heat, 0);
+  require_at_least("busy_speed", p.busy_speed, 0);
+  require(!p.sparse || is_split(p.method), "sparse needs a method that traces back, or a liquid");
+  require(!p.sparse || !p.implicit_viscosity, "sparse needs explicit viscosity");
+  require(!p.sparse || p.courant <= fluid_block - 1,
+          "courant is " + std::to_string(p.courant) + ", must be at most " +
+              std::to_string(fluid_block - 1) + " where sparse");
   require(p.max_iterations >= 1 && p.max_iterations <= 10000,
           "max_iterations is " + std::to_string(p.max_iterations) + ", must be 1 to 10000");
 }
@@ -104,6 +112,9 @@ void check_fluid_problem(const FluidProblem& problem) {
     require_finite("center of a solid", solid.center);
     require_finite("velocity of a solid", solid.velocity);
     require_positive("half side of a solid", solid.half.x);
+    require(!problem.parameters.sparse || is_liquid(problem.parameters.method) ||
+                solid.velocity == dvec3(0),
+            "sparse smoke needs solids at rest");
     if (solid.shape == SolidShape::box)
       require_positive("half side of a solid", std::min(solid.half.y, solid.half.z));
   }
@@ -116,6 +127,11 @@ void check_fluid_problem(const FluidProblem& problem) {
   }
   const ivec3 cells = problem.domain.cells;
   const FluidState& state = problem.initial;
+  for (int axis = 0; axis < 3; ++axis)
+    require(!problem.parameters.sparse || !problem.domain.is_periodic(axis),
+            "sparse needs walls or open sides, axis " + std::to_string(axis) + " is periodic");
+  require(state.active.empty() || state.active.size() == problem.domain.cell_count(),
+          "active does not fit the domain");
   for (int axis = 0; axis < 3; ++axis)
     check_field("velocity", state.velocity[std::size_t(axis)], cells + axis_step(axis));
   check_field("pressure", state.pressure, cells);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "cpu_reference/fluid/tiles.h"
+
 namespace parity::cpu {
 namespace {
 
@@ -76,19 +78,22 @@ double sample(const FluidDomain& domain, const Field& field, int axis, dvec3 pos
   return value;
 }
 
-Field advect(const FluidProblem& problem, const FaceFields& velocity, const Field& field, int axis,
-             double seconds, FluidMethod method) {
+Field advect(const FluidProblem& problem, const FluidState& state, const Field& field, int axis,
+             double seconds) {
+  const FluidMethod method = problem.parameters.method;
   if (method != FluidMethod::semi_lagrangian && method != FluidMethod::maccormack)
     throw std::invalid_argument("cpu::advect: method must be semi_lagrangian or maccormack");
   const FluidDomain& domain = problem.domain;
+  const ActivePoints active(domain, state.active);
   const auto for_points = [&](const auto& visit) {
     for (int z = 0; z < field.size.z; ++z)
       for (int y = 0; y < field.size.y; ++y)
         for (int x = 0; x < field.size.x; ++x)
-          if (!in_closed_wall(domain, axis, {x, y, z})) visit(ivec3(x, y, z));
+          if (!in_closed_wall(domain, axis, {x, y, z}) && active.has(axis, {x, y, z}))
+            visit(ivec3(x, y, z));
   };
   const auto source = [&](ivec3 point, double time) {
-    return trace_back(problem, velocity, point_position(domain, axis, point), time);
+    return trace_back(problem, state.velocity, point_position(domain, axis, point), time);
   };
   Field forth(field.size);
   for_points(

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cpu_reference/fluid/tiles.h"
+
 namespace parity::cpu {
 namespace {
 
@@ -29,11 +31,14 @@ dvec3 middle_velocity(const FluidDomain& domain, const FaceFields& velocity, ive
 }
 
 /// Accelerations of confinement in cells: h epsilon N x omega.
-std::vector<dvec3> confinement(const FluidProblem& problem, const FaceFields& velocity) {
+std::vector<dvec3> confinement(const FluidProblem& problem, const FluidState& state) {
   const FluidDomain& domain = problem.domain;
+  const FaceFields& velocity = state.velocity;
+  const ActivePoints active(domain, state.active);
   const double h = domain.spacing;
   std::vector<dvec3> curl(domain.cell_count()), result(domain.cell_count());
   for_points(domain.cells, [&](ivec3 cell) {
+    if (!active.has(-1, cell)) return;
     dmat3 slope;  // column d: derivative along d
     for (int d = 0; d < 3; ++d)
       slope[d] = (middle_velocity(domain, velocity, cell + axis_step(d)) -
@@ -91,17 +96,18 @@ FluidState push(const FluidProblem& problem, const FluidState& state, double sec
   const FluidDomain& domain = problem.domain;
   const FluidParameters& p = problem.parameters;
   std::vector<dvec3> acceleration(domain.cell_count(), p.force);
-  if (p.vorticity_confinement > 0) acceleration = confinement(problem, state.velocity);
+  if (p.vorticity_confinement > 0) acceleration = confinement(problem, state);
   for (std::size_t i = 0; i < acceleration.size(); ++i) {
     if (p.vorticity_confinement > 0) acceleration[i] += p.force;
     acceleration[i].y +=
         p.heat_lift * state.temperature.values[i] - p.smoke_weight * state.smoke.values[i];
   }
+  const ActivePoints active(domain, state.active);
   FluidState result = state;
   for (int axis = 0; axis < 3; ++axis) {
     Field& u = result.velocity[std::size_t(axis)];
     for_points(u.size, [&](ivec3 face) {
-      if (in_closed_wall(domain, axis, face)) return;
+      if (in_closed_wall(domain, axis, face) || !active.has(axis, face)) return;
       const auto [below, above] = cells_beside(domain, axis, face);
       u(face) += seconds * (acceleration[below][axis] + acceleration[above][axis]) / 2;
       for (const FluidSource& source : problem.sources)

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cpu_reference/fluid/project.h"
+#include "cpu_reference/fluid/tiles.h"
 
 namespace parity::cpu {
 namespace {
@@ -148,12 +149,15 @@ FaceTransfer particles_to_faces(const FluidProblem& problem, const LiquidParticl
 }
 
 FluidState liquid_step(const FluidProblem& problem, const FluidState& state, double seconds) {
-  FluidState result = state;
+  FluidState result = problem.parameters.sparse ? choose_active(problem, state) : state;
+  const ActivePoints active(problem.domain, result.active);
   const FaceFields before = particles_to_faces(problem, state.particles).velocity;
   result.velocity = before;
-  for (int axis = 0; axis < (problem.domain.is_flat() ? 2 : 3); ++axis)
-    for (double& u : result.velocity[std::size_t(axis)].values)
-      u += seconds * problem.parameters.force[axis];
+  for (int axis = 0; axis < (problem.domain.is_flat() ? 2 : 3); ++axis) {
+    Field& velocity = result.velocity[std::size_t(axis)];
+    for (double& u : velocity.values) u += seconds * problem.parameters.force[axis];
+    active.clear_rest(axis, velocity);
+  }
   result.time = state.time + seconds;
   result = project(problem, result, seconds);
   for (std::size_t i = 0; i < result.particles.count(); ++i)

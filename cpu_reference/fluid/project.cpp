@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "cpu_reference/fluid/tiles.h"
 #include "cpu_reference/numerics/conjugate_gradient.h"
 #include "sim/pressure.h"
 
@@ -37,6 +38,7 @@ FluidState project(const FluidProblem& problem, const FluidState& state, double 
   FluidState result = state;
   result.pressure = conjugate_gradient(system, Preconditioner::incomplete_cholesky).pressure;
   const FaceFields boundary = boundary_velocity(domain, problem.solids, state.time);
+  const ActivePoints active(domain, state.active);
   const double scale = seconds / (problem.parameters.density * domain.spacing);
   for (int axis = 0; axis < 3; ++axis) {
     Field& u = result.velocity[std::size_t(axis)];
@@ -45,6 +47,7 @@ FluidState project(const FluidProblem& problem, const FluidState& state, double 
       for (int y = 0; y < u.size.y; ++y)
         for (int x = 0; x < u.size.x; ++x) {
           const ivec3 face(x, y, z);
+          if (!active.has(axis, face)) continue;
           if (open(face) == 0) {
             u(face) = boundary[std::size_t(axis)](face);
             continue;

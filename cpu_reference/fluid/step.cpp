@@ -4,6 +4,7 @@
 #include "cpu_reference/fluid/forces.h"
 #include "cpu_reference/fluid/momentum.h"
 #include "cpu_reference/fluid/project.h"
+#include "cpu_reference/fluid/tiles.h"
 
 namespace parity::cpu {
 namespace {
@@ -34,18 +35,21 @@ FluidState runge_kutta_step(const FluidProblem& problem, const FluidState& state
   return runge_kutta_stage(problem, state, second, 2.0 / 3, seconds);
 }
 
-FluidState split_step(const FluidProblem& problem, const FluidState& state, double seconds) {
+FluidState split_step(const FluidProblem& problem, const FluidState& before, double seconds) {
   const FluidParameters& p = problem.parameters;
+  const FluidState state = p.sparse ? choose_active(problem, before) : before;
+  const ActivePoints active(problem.domain, state.active);
   FluidState result = state;
-  result.smoke = advect(problem, state.velocity, state.smoke, -1, seconds, p.method);
-  result.temperature = advect(problem, state.velocity, state.temperature, -1, seconds, p.method);
+  result.smoke = advect(problem, state, state.smoke, -1, seconds);
+  result.temperature = advect(problem, state, state.temperature, -1, seconds);
   for (int axis = 0; axis < 3; ++axis)
     result.velocity[std::size_t(axis)] =
-        advect(problem, state.velocity, state.velocity[std::size_t(axis)], axis, seconds, p.method);
+        advect(problem, state, state.velocity[std::size_t(axis)], axis, seconds);
   if (p.viscosity > 0)
     result.velocity = p.implicit_viscosity
                           ? diffuse_implicit(problem.domain, result.velocity, p.viscosity, seconds)
                           : diffuse_explicit(problem.domain, result.velocity, p.viscosity, seconds);
+  for (int axis = 0; axis < 3; ++axis) active.clear_rest(axis, result.velocity[std::size_t(axis)]);
   // After viscosity: what a force pushes against a wall is not yet flow that could rub on it.
   result = push(problem, hold_sources(problem, result, seconds), seconds);
   result.time = state.time + seconds;

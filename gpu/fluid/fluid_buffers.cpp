@@ -95,7 +95,10 @@ FluidScene scene_of(const FluidProblem& problem) {
                    .back_trace = p.back_trace == BackTrace::rk2 ? 2u : 3u,
                    .implicit_viscosity = p.implicit_viscosity ? 1u : 0u,
                    .solid_count = std::uint32_t(problem.solids.size()),
-                   .source_count = std::uint32_t(problem.sources.size())};
+                   .source_count = std::uint32_t(problem.sources.size()),
+                   .busy_smoke = float(p.busy_smoke),
+                   .busy_heat = float(p.busy_heat),
+                   .busy_speed = float(p.busy_speed)};
   for (std::size_t side = 0; side < 6; ++side) {
     scene.walls[side] = std::uint32_t(domain.walls[side].kind);
     scene.wall_velocities[side] = vec3(domain.walls[side].velocity);
@@ -105,7 +108,8 @@ FluidScene scene_of(const FluidProblem& problem) {
 
 FluidBuffers::FluidBuffers(Context& context, const FluidProblem& problem)
     : cells(problem.domain.cells),
-      with_solids(!problem.solids.empty() || is_liquid(problem.parameters.method)),
+      with_solids(!problem.solids.empty() || is_liquid(problem.parameters.method) ||
+                  problem.parameters.sparse),
       solids(context, records_of(problem.solids)),
       sources(context, records_of(problem.sources)),
       scene(context, 1),
@@ -114,6 +118,10 @@ FluidBuffers::FluidBuffers(Context& context, const FluidProblem& problem)
       other(context, cells),
       third(context, cells) {
   FluidScene record = scene_of(problem);
+  if (problem.parameters.sparse) {
+    tiles = std::make_unique<TileLists>(context, uvec3(cells));
+    record.tiles = tiles->table();
+  }
   record.solids = solids;
   record.sources = sources;
   scene.write(std::vector<FluidScene>{record});

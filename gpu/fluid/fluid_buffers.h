@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 
 #include "gpu/core/buffer.h"
 #include "gpu/core/commands.h"
@@ -34,9 +35,21 @@ struct FluidBuffers {
 
   /// Threads for the points of an axis; 3 stands for cells.
   Threads threads(int axis) const;
+  /// One thread for each point of an axis that the step works on: of the box, or of active tiles.
+  template <typename Args>
+  void dispatch(Commands& commands, const Kernel<Args>& kernel, std::uint32_t axis,
+                const Args& args) const {
+    if (tiles) {
+      tiles->dispatch(commands, kernel, axis < 3 ? tile_faces : tile_cells, args);
+    } else {
+      commands.dispatch(kernel, threads(int(axis)), args);
+    }
+  }
+  /// What specialises kernels for that.
+  Specialization tiled() const { return {2, tiles ? 1u : 0u}; }
 
   ivec3 cells;
-  bool with_solids;  ///< solids, or air: types and open fractions are used
+  bool with_solids;  ///< solids, air, or tiles: types and open fractions are used
   Buffer<FluidSolidRecord> solids;
   Buffer<FluidSourceRecord> sources;
   Buffer<FluidScene> scene;
@@ -44,6 +57,7 @@ struct FluidBuffers {
   FaceBuffers velocity, other, third;
   FaceBuffers open, boundary;  ///< with solids
   Buffer<std::uint32_t> types;
+  std::unique_ptr<TileLists> tiles;  ///< of a sparse fluid
 };
 
 /// The scene as the kernels see it. Throws what check_fluid_problem throws.

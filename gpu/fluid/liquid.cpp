@@ -21,8 +21,8 @@ Liquid::Liquid(Context& context, FluidBuffers& buffers, const FluidProblem& prob
       sort_(context, count_),
       keys_kernel_(context, shaders::fluid_particle_keys_comp),
       ranges_kernel_(context, shaders::fluid_particle_ranges_comp),
-      to_faces_(context, shaders::fluid_particles_to_faces_comp),
-      forces_(context, shaders::fluid_liquid_forces_comp),
+      to_faces_(context, shaders::fluid_particles_to_faces_comp, {buffers.tiled()}),
+      forces_(context, shaders::fluid_liquid_forces_comp, {buffers.tiled()}),
       to_particles_(context, shaders::fluid_faces_to_particles_comp) {}
 
 void Liquid::write(const LiquidParticles& particles) {
@@ -53,22 +53,26 @@ LiquidArgs Liquid::args() const {
           .count = count_};
 }
 
-void Liquid::record_to_grid(Commands& commands) {
-  LiquidArgs now = args();
+void Liquid::record_sort(Commands& commands) {
+  const LiquidArgs now = args();
   commands.fill(ranges_, 0);
   if (count_ > 0) {
     commands.dispatch(keys_kernel_, {count_}, now);
     sort_.record(commands, count_buffer_, keys_, sorted_, key_bits_);
     commands.dispatch(ranges_kernel_, {count_}, now);
   }
+}
+
+void Liquid::record_to_grid(Commands& commands) {
+  LiquidArgs now = args();
   for (now.axis = 0; now.axis < (buffers_.cells.z > 1 ? 3u : 2u); ++now.axis)
-    commands.dispatch(to_faces_, buffers_.threads(int(now.axis)), now);
+    buffers_.dispatch(commands, to_faces_, now.axis, now);
 }
 
 void Liquid::record_forces(Commands& commands) {
   LiquidArgs now = args();
   for (now.axis = 0; now.axis < (buffers_.cells.z > 1 ? 3u : 2u); ++now.axis)
-    commands.dispatch(forces_, buffers_.threads(int(now.axis)), now);
+    buffers_.dispatch(commands, forces_, now.axis, now);
 }
 
 void Liquid::record_to_particles(Commands& commands) {

@@ -16,7 +16,9 @@ class Liquid {
   void write(const LiquidParticles& particles);
   LiquidParticles read() const;
 
-  /// Sorts, and gives faces the velocity of the particles around; kept in buffers.other too.
+  /// Particles by cell, and where each cell has its own.
+  void record_sort(Commands& commands);
+  /// Gives faces the velocity of the sorted particles around; kept in buffers.other too.
   void record_to_grid(Commands& commands);
   void record_forces(Commands& commands);
   /// Takes the new velocity back and moves.

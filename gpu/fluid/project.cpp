@@ -8,7 +8,7 @@ namespace parity::gpu {
 namespace {
 
 std::vector<Specialization> solids_of(const FluidBuffers& buffers) {
-  return {{0, buffers.with_solids ? 1u : 0u}};
+  return {{0, buffers.with_solids ? 1u : 0u}, buffers.tiled()};
 }
 
 bool has_open_side(const FluidDomain& domain) {
@@ -20,7 +20,7 @@ bool has_open_side(const FluidDomain& domain) {
 
 Projection::Projection(Context& context, FluidBuffers& buffers, const FluidProblem& problem)
     : buffers_(buffers),
-      system_(context, shape_of(problem.domain, buffers.with_solids)),
+      system_(context, shape_of(problem.domain, buffers.with_solids), buffers.tiles.get()),
       divergence_(context, shaders::fluid_divergence_comp, solids_of(buffers)),
       subtract_(context, shaders::fluid_subtract_gradient_comp, solids_of(buffers)),
       start_(context, shaders::fluid_start_solve_comp),
@@ -64,7 +64,11 @@ void Projection::record(Commands& commands, const FluidFaces& velocity, float pa
   FluidProjectArgs now = args(velocity);
   now.part = part;
   commands.dispatch(start_, {1}, now);
-  commands.dispatch(divergence_, {4 * system_.quad_count()}, now);
+  if (buffers_.tiles) {
+    buffers_.dispatch(commands, divergence_, 3, now);
+  } else {
+    commands.dispatch(divergence_, {4 * system_.quad_count()}, now);
+  }
   if (multigrid_) {
     multigrid_->record_solve(commands, iterations_, false);
   } else {
@@ -76,7 +80,7 @@ void Projection::record(Commands& commands, const FluidFaces& velocity, float pa
   now.pressure = system_.pressure();
   for (std::uint32_t axis = 0; axis < (buffers_.cells.z > 1 ? 3u : 2u); ++axis) {
     now.mode = 2 * axis + (multigrid_ ? 0 : 1);
-    commands.dispatch(subtract_, buffers_.threads(int(axis)), now);
+    buffers_.dispatch(commands, subtract_, axis, now);
   }
 }
 

@@ -16,12 +16,13 @@ constexpr int implicit_sweeps = 64;          ///< contract by (10 / 11)^2 each, 
 
 std::uint32_t speed_run(std::uint32_t faces) { return (faces + speed_chunks - 1) / speed_chunks; }
 
-std::vector<Kernel<FluidScalarArgs>> make_smoke_steps(Context& context, FluidMethod method) {
+std::vector<Kernel<FluidScalarArgs>> make_smoke_steps(Context& context, FluidMethod method,
+                                                      Specialization tiled) {
   std::vector<Kernel<FluidScalarArgs>> steps;
   if (is_split(method))
     for (std::uint32_t mode = 0; mode < 4; ++mode)
       steps.emplace_back(context, shaders::fluid_smoke_comp,
-                         std::vector<Specialization>{{1, mode}});
+                         std::vector<Specialization>{{1, mode}, tiled});
   return steps;
 }
 
@@ -50,13 +51,14 @@ FluidSimulation::FluidSimulation(Context& context, const FluidProblem& problem)
       vorticity_(context, spin_cells(problem)),
       spin_(context, spin_cells(problem)),
       clock_(context, shaders::fluid_clock_comp),
-      speed_(context, shaders::fluid_speed_comp),
+      speed_(context, shaders::fluid_speed_comp, {buffers_.tiled()}),
       rate_(context, shaders::fluid_rate_comp),
-      advect_(context, shaders::fluid_advect_comp),
-      diffuse_(context, shaders::fluid_diffuse_comp),
-      solid_faces_(context, shaders::fluid_solid_faces_comp),
-      cell_types_(context, shaders::fluid_cell_types_comp),
-      smoke_steps_(make_smoke_steps(context, problem.parameters.method)) {
+      advect_(context, shaders::fluid_advect_comp, {buffers_.tiled()}),
+      diffuse_(context, shaders::fluid_diffuse_comp, {buffers_.tiled()}),
+      solid_faces_(context, shaders::fluid_solid_faces_comp, {buffers_.tiled()}),
+      cell_types_(context, shaders::fluid_cell_types_comp, {buffers_.tiled()}),
+      smoke_steps_(make_smoke_steps(context, problem.parameters.method, buffers_.tiled())) {
+  if (buffers_.tiles) active_tiles_ = std::make_unique<ActiveTiles>(context, buffers_, problem_);
   if (is_liquid(problem.parameters.method))
     liquid_ = std::make_unique<Liquid>(context, buffers_, problem_);
   write(problem.initial);
@@ -84,6 +86,12 @@ void FluidSimulation::set_end(double time) {
   buffers_.clock.write(std::vector<FluidClock>{now});
 }
 
+void FluidSimulation::visit_all_tiles() {
+  if (!buffers_.tiles) return;
+  buffers_.tiles->visit_all();
+  buffers_.tiles->activate_all(context_);
+}
+
 FluidClock FluidSimulation::clock() const { return buffers_.clock.read().front(); }
 
 void FluidSimulation::write(const FluidState& state) {
@@ -106,6 +114,7 @@ void FluidSimulation::write(const FluidState& state) {
     scalar_forth_.write(floats_of(state.smoke));
   }
   if (liquid_) liquid_->write(state.particles);
+  if (buffers_.tiles) buffers_.tiles->activate_all(context_);
   if (buffers_.with_solids) context_.run([&](Commands& commands) { record_solids(commands); });
 }
 
@@ -124,6 +133,7 @@ FluidState FluidSimulation::read() const {
     state.temperature = problem_.initial.temperature;
   }
   if (liquid_) state.particles = liquid_->read();
+  if (active_tiles_) state.active = active_tiles_->read_active();
   return state;
 }
 
@@ -161,6 +171,8 @@ FluidState FluidSimulation::run_part(Part part, float seconds) {
 
 void FluidSimulation::record_step(Commands& commands) {
   record_clock(commands, 0);
+  if (liquid_) liquid_->record_sort(commands);
+  if (active_tiles_) record_tiles(commands);
   if (std::ranges::any_of(problem_.solids,
                           [](const FluidSolid& solid) { return solid.velocity != dvec3(0); }))
     record_solids(commands);
@@ -183,8 +195,9 @@ void FluidSimulation::record_clock(Commands& commands, std::uint32_t mode) {
   if (mode == 0) {
     std::uint32_t first = 0;
     for (std::uint32_t axis = 0; axis < 3; ++axis) {
-      const std::uint32_t faces = buffers_.threads(int(axis)).x, run = speed_run(faces);
-      const std::uint32_t chunks = (faces + run - 1) / run;
+      const std::uint32_t faces = buffers_.threads(int(axis)).x;
+      const std::uint32_t run = buffers_.tiles ? 0 : speed_run(faces);
+      const std::uint32_t chunks = run == 0 ? tile_speeds : (faces + run - 1) / run;
       now.axis = axis;
       now.mode = first;
       now.weight = float(run);
@@ -194,6 +207,21 @@ void FluidSimulation::record_clock(Commands& commands, std::uint32_t mode) {
   }
   now.mode = mode;
   commands.dispatch(clock_, {1}, now);
+}
+
+void FluidSimulation::record_tiles(Commands& commands) {
+  const BufferRef<std::uint32_t> ranges =
+      liquid_ ? liquid_->ranges().ref() : BufferRef<std::uint32_t>{};
+  active_tiles_->record_choice(commands, smoke_, temperature_, ranges);
+  active_tiles_->record_clear_faces(commands);
+  active_tiles_->record_clear(commands, {projection_.system().pressure().ref().address}, 0);
+  if (liquid_) return;
+  for (const Buffer<float>* field : {&smoke_, &temperature_, &scalar_, &scalar_forth_})
+    active_tiles_->record_clear(commands, *field, 1);
+  if (problem_.parameters.vorticity_confinement > 0)
+    for (const Buffer<vec4>* field : {&vorticity_, &spin_})
+      active_tiles_->record_clear(commands, {field->ref().address}, 4);
+  record_cells(commands);
 }
 
 void FluidSimulation::record_solids(Commands& commands) {
@@ -206,20 +234,24 @@ void FluidSimulation::record_solids(Commands& commands) {
                     .axis = 0,
                     .is_liquid = 0};
   for (now.axis = 0; now.axis < 3; ++now.axis)
-    commands.dispatch(solid_faces_, buffers_.threads(int(now.axis)), now);
+    buffers_.dispatch(commands, solid_faces_, now.axis, now);
   if (!liquid_) record_cells(commands);
 }
 
 void FluidSimulation::record_cells(Commands& commands) {
-  commands.dispatch(cell_types_, buffers_.threads(3),
-                    {.scene = buffers_.scene,
-                     .clock = buffers_.clock,
-                     .open = buffers_.open,
-                     .boundary = buffers_.boundary,
-                     .types = buffers_.types,
-                     .ranges = liquid_ ? liquid_->ranges().ref() : BufferRef<std::uint32_t>{},
-                     .axis = 0,
-                     .is_liquid = liquid_ ? 1u : 0u});
+  const FluidCellArgs now{.scene = buffers_.scene,
+                          .clock = buffers_.clock,
+                          .open = buffers_.open,
+                          .boundary = buffers_.boundary,
+                          .types = buffers_.types,
+                          .ranges = liquid_ ? liquid_->ranges().ref() : BufferRef<std::uint32_t>{},
+                          .axis = 0,
+                          .is_liquid = liquid_ ? 1u : 0u};
+  if (buffers_.tiles) {
+    buffers_.tiles->dispatch(commands, cell_types_, touched_cells, now);
+  } else {
+    commands.dispatch(cell_types_, buffers_.threads(3), now);
+  }
   projection_.record_cells(commands);
 }
 
@@ -246,19 +278,19 @@ void FluidSimulation::record_scalar(Commands& commands, const Buffer<float>& fie
   now.axis = 3;
   now.field = field;
   now.field_result = scalar_;
-  commands.dispatch(advect_, buffers_.threads(3), now);
+  buffers_.dispatch(commands, advect_, 3, now);
   BufferRef<float> advected = scalar_;
   if (problem_.parameters.method == FluidMethod::maccormack) {
     now.other = {scalar_, scalar_, scalar_};
     now.field_result = advected = scalar_forth_;
     now.mode = 1;
-    commands.dispatch(advect_, buffers_.threads(3), now);
+    buffers_.dispatch(commands, advect_, 3, now);
   }
   // By a kernel, which does nothing once the end is reached.
   now.field = advected;
   now.field_result = field;
   now.mode = 2;
-  commands.dispatch(advect_, buffers_.threads(3), now);
+  buffers_.dispatch(commands, advect_, 3, now);
 }
 
 void FluidSimulation::record_smoke(Commands& commands, std::uint32_t mode, std::uint32_t axis) {
@@ -271,8 +303,8 @@ void FluidSimulation::record_smoke(Commands& commands, std::uint32_t mode, std::
                             .spin = spin_,
                             .axis = axis,
                             .mode = mode};
-  commands.dispatch(smoke_steps_[mode],
-                    buffers_.threads(mode == std::uint32_t(Smoke::forces) ? int(axis) : 3), now);
+  buffers_.dispatch(commands, smoke_steps_[mode], mode == std::uint32_t(Smoke::forces) ? axis : 3,
+                    now);
 }
 
 /// velocity to other; third is scratch.
@@ -281,25 +313,40 @@ void FluidSimulation::record_advection(Commands& commands) {
   const bool is_corrected = problem_.parameters.method == FluidMethod::maccormack;
   now.result = is_corrected ? buffers_.third : buffers_.other;
   for (now.axis = 0; now.axis < axes(); ++now.axis)
-    commands.dispatch(advect_, buffers_.threads(int(now.axis)), now);
+    buffers_.dispatch(commands, advect_, now.axis, now);
   if (!is_corrected) return;
   now.other = buffers_.third;
   now.result = buffers_.other;
   now.mode = 1;
   for (now.axis = 0; now.axis < axes(); ++now.axis)
-    commands.dispatch(advect_, buffers_.threads(int(now.axis)), now);
+    buffers_.dispatch(commands, advect_, now.axis, now);
+}
+
+void FluidSimulation::record_copy(Commands& commands, const FaceBuffers& from,
+                                  const FaceBuffers& to) {
+  FluidArgs now = args();
+  now.velocity = from;
+  now.result = to;
+  now.mode = 2;
+  for (int axis = 0; axis < int(axes()); ++axis) {
+    now.axis = std::uint32_t(axis);
+    if (buffers_.tiles) {
+      buffers_.dispatch(commands, advect_, now.axis, now);
+    } else {
+      commands.copy(from[axis], to[axis], 0, 0, from[axis].count());
+    }
+  }
 }
 
 void FluidSimulation::record_viscosity(Commands& commands) {
   FluidArgs now = args();
-  for (int axis = 0; axis < int(axes()); ++axis)
-    commands.copy(buffers_.other[axis], buffers_.third[axis], 0, 0, buffers_.other[axis].count());
+  record_copy(commands, buffers_.other, buffers_.third);
   now.velocity = buffers_.third;
   now.result = buffers_.other;
   if (!problem_.parameters.implicit_viscosity) {
     now.mode = 2;
     for (now.axis = 0; now.axis < axes(); ++now.axis)
-      commands.dispatch(diffuse_, buffers_.threads(int(now.axis)), now);
+      buffers_.dispatch(commands, diffuse_, now.axis, now);
     return;
   }
   now.velocity = buffers_.other;
@@ -307,7 +354,7 @@ void FluidSimulation::record_viscosity(Commands& commands) {
   for (int sweep = 0; sweep < implicit_sweeps; ++sweep)
     for (now.mode = 0; now.mode < 2; ++now.mode)
       for (now.axis = 0; now.axis < axes(); ++now.axis)
-        commands.dispatch(diffuse_, buffers_.threads(int(now.axis)), now);
+        buffers_.dispatch(commands, diffuse_, now.axis, now);
 }
 
 void FluidSimulation::record_split(Commands& commands) {
@@ -324,9 +371,7 @@ void FluidSimulation::record_split(Commands& commands) {
   for (std::uint32_t axis = 0; axis < axes(); ++axis)
     record_smoke(commands, std::uint32_t(Smoke::forces), axis);
   projection_.record(commands, buffers_.other, 1);
-  for (int axis = 0; axis < int(axes()); ++axis)
-    commands.copy(buffers_.other[axis], buffers_.velocity[axis], 0, 0,
-                  buffers_.other[axis].count());
+  record_copy(commands, buffers_.other, buffers_.velocity);
 }
 
 FluidState step(Context& context, const FluidProblem& problem, const FluidState& state,

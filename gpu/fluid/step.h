@@ -4,6 +4,7 @@
 
 #include "gpu/fluid/fluid_buffers.h"
 #include "gpu/fluid/project.h"
+#include "gpu/fluid/tiles.h"
 
 namespace parity::gpu {
 
@@ -34,6 +35,10 @@ class FluidSimulation {
   enum class Part { advection, viscosity, projection };
   FluidState run_part(Part part, float seconds);
 
+  /// A sparse fluid's kernels visit the whole box from now on and turn away from what is not
+  /// active: the same bits at the cost of the box.
+  void visit_all_tiles();
+
   FluidClock clock() const;
   FluidState read() const;
   /// Goes on from another state of the same domain, e.g. a checkpoint: the same state gives the
@@ -48,6 +53,7 @@ class FluidSimulation {
 
  private:
   void record_clock(Commands& commands, std::uint32_t mode);
+  void record_tiles(Commands& commands);
   void record_solids(Commands& commands);
   void record_cells(Commands& commands);
   void record_rate(Commands& commands, const FluidFaces& from, const FluidFaces& to, float weight);
@@ -56,6 +62,7 @@ class FluidSimulation {
   void record_scalar(Commands& commands, const Buffer<float>& field);
   void record_advection(Commands& commands);
   void record_smoke(Commands& commands, std::uint32_t mode, std::uint32_t axis);
+  void record_copy(Commands& commands, const FaceBuffers& from, const FaceBuffers& to);
   void record_viscosity(Commands& commands);
   FluidArgs args() const;
   /// Axes with more than one cell.
@@ -72,6 +79,7 @@ class FluidSimulation {
   Kernel<FluidCellArgs> solid_faces_, cell_types_;
   std::vector<Kernel<FluidScalarArgs>> smoke_steps_;
   std::unique_ptr<Liquid> liquid_;
+  std::unique_ptr<ActiveTiles> active_tiles_;
   std::uint64_t memory_bytes_ = 0;
 };
 

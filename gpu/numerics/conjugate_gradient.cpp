@@ -11,8 +11,9 @@ enum class VectorStep : std::uint32_t { dots, direction, advance, sums, subtract
 
 constexpr std::uint32_t quads_a_thread = 16;
 
-Kernel<VectorArgs> make_vectors(Context& context, VectorStep step) {
-  return Kernel<VectorArgs>(context, shaders::numerics_vectors_comp, {{1, std::uint32_t(step)}});
+Kernel<VectorArgs> make_vectors(Context& context, const PressureSystem& system, VectorStep step) {
+  return Kernel<VectorArgs>(context, shaders::numerics_vectors_comp,
+                            {{1, std::uint32_t(step)}, {2, system.tiles() != nullptr ? 1u : 0u}});
 }
 
 }  // namespace
@@ -25,11 +26,11 @@ ConjugateGradient::ConjugateGradient(Context& context, PressureSystem& system,
                      : nullptr),
       residual_(system.make_sweep(context, Sweep::residual)),
       apply_(system.make_sweep(context, Sweep::apply)),
-      dots_(make_vectors(context, VectorStep::dots)),
-      direction_(make_vectors(context, VectorStep::direction)),
-      advance_(make_vectors(context, VectorStep::advance)),
-      sums_(make_vectors(context, VectorStep::sums)),
-      subtract_mean_(make_vectors(context, VectorStep::subtract_mean)),
+      dots_(make_vectors(context, system, VectorStep::dots)),
+      direction_(make_vectors(context, system, VectorStep::direction)),
+      advance_(make_vectors(context, system, VectorStep::advance)),
+      sums_(make_vectors(context, system, VectorStep::sums)),
+      subtract_mean_(make_vectors(context, system, VectorStep::subtract_mean)),
       solution_(context, system.quad_count()),
       solution_low_(context, system.quad_count()),
       direction_vector_(context, system.quad_count()),
@@ -48,20 +49,27 @@ std::uint32_t ConjugateGradient::vector_threads() const {
 void ConjugateGradient::record_vectors(Commands& commands, const Kernel<VectorArgs>& kernel) {
   // The residual lives in the right side, where the preconditioner takes it from; the
   // preconditioned residual in the pressure, where it leaves it.
-  commands.dispatch(kernel, {vector_threads()},
-                    {.x = solution_,
-                     .x_low = solution_low_,
-                     .d = direction_vector_,
-                     .r = system_.rhs(),
-                     .q = image_,
-                     .z = multigrid_ ? system_.pressure().ref() : system_.rhs().ref(),
-                     .words = system_.finest().words,
-                     .partials = system_.partials(),
-                     .control = system_.control(),
-                     .quads = system_.quad_count(),
-                     .run = quads_a_thread,
-                     .mode = 0,
-                     .padding = 0});
+  const VectorArgs args{.x = solution_,
+                        .x_low = solution_low_,
+                        .d = direction_vector_,
+                        .r = system_.rhs(),
+                        .q = image_,
+                        .z = multigrid_ ? system_.pressure().ref() : system_.rhs().ref(),
+                        .words = system_.finest().words,
+                        .partials = system_.partials(),
+                        .control = system_.control(),
+                        .tiles = system_.tile_table(),
+                        .cells = system_.finest().cells,
+                        .row = system_.finest().row,
+                        .quads = system_.quad_count(),
+                        .run = quads_a_thread,
+                        .mode = 0,
+                        .padding = 0};
+  if (system_.tiles() != nullptr) {
+    system_.tiles()->dispatch(commands, kernel, tile_rows, args);
+  } else {
+    commands.dispatch(kernel, {vector_threads()}, args);
+  }
 }
 
 void ConjugateGradient::record_solve(Commands& commands, std::uint32_t iterations,
@@ -73,6 +81,8 @@ void ConjugateGradient::record_solve(Commands& commands, std::uint32_t iteration
   }
   commands.copy(system_.pressure(), solution_, 0, 0, system_.quad_count());
   commands.fill(solution_low_, 0);
+  // Tiles that were left must not keep a direction.
+  if (system_.tiles() != nullptr) commands.fill(direction_vector_, 0);
   system_.record_sweep(commands, residual_, system_.finest(), 0, 1, image_);
   commands.copy(image_, system_.rhs(), 0, 0, system_.quad_count());
   system_.record_reduce(commands, Reduction::largest_residual, system_.sweep_partials());

@@ -9,9 +9,22 @@ namespace {
 
 enum class Transfer : std::uint32_t { restrict_residual, restrict_rhs, prolong_red, prolong_both };
 
-Kernel<TransferArgs> make_transfer(Context& context, const PressureSystem& system, Transfer mode) {
+Kernel<TransferArgs> make_transfer(Context& context, const PressureSystem& system, Transfer mode,
+                                   bool is_finest) {
   return Kernel<TransferArgs>(context, shaders::numerics_transfer_comp,
-                              {{0, system.shape().with_words ? 1u : 0u}, {1, std::uint32_t(mode)}});
+                              {{0, system.shape().with_words ? 1u : 0u},
+                               {1, std::uint32_t(mode)},
+                               {2, is_finest && system.tiles() != nullptr ? 1u : 0u}});
+}
+
+std::array<Kernel<TransferArgs>, 2> make_transfers(Context& context, const PressureSystem& system,
+                                                   Transfer mode) {
+  return {make_transfer(context, system, mode, true), make_transfer(context, system, mode, false)};
+}
+
+std::array<Kernel<SweepArgs>, 2> make_sweeps(Context& context, const PressureSystem& system,
+                                             Sweep mode) {
+  return {system.make_sweep(context, mode, true), system.make_sweep(context, mode, false)};
 }
 
 /// The first grid of at most small_cells cells; the last one at least.
@@ -30,13 +43,13 @@ std::size_t first_small(const PressureSystem& system) {
 Multigrid::Multigrid(Context& context, PressureSystem& system)
     : system_(system),
       small_(first_small(system)),
-      smooth_(system.make_sweep(context, Sweep::smooth_colour)),
-      first_(system.make_sweep(context, Sweep::first_colour)),
+      smooth_(make_sweeps(context, system, Sweep::smooth_colour)),
+      first_(make_sweeps(context, system, Sweep::first_colour)),
       measure_(system.make_sweep(context, Sweep::measure)),
-      restrict_residual_(make_transfer(context, system, Transfer::restrict_residual)),
-      restrict_rhs_(make_transfer(context, system, Transfer::restrict_rhs)),
-      prolong_red_(make_transfer(context, system, Transfer::prolong_red)),
-      prolong_both_(make_transfer(context, system, Transfer::prolong_both)),
+      restrict_residual_(make_transfers(context, system, Transfer::restrict_residual)),
+      prolong_red_(make_transfers(context, system, Transfer::prolong_red)),
+      restrict_rhs_(make_transfer(context, system, Transfer::restrict_rhs, false)),
+      prolong_both_(make_transfer(context, system, Transfer::prolong_both, false)),
       small_cycle_(context, shaders::numerics_small_cycle_comp,
                    {{0, system.shape().with_words ? 1u : 0u}}),
       levels_(context, system.levels()) {}
@@ -47,9 +60,22 @@ void Multigrid::record_transfer(Commands& commands, const Kernel<TransferArgs>& 
   const PressureLevel& c = system_.levels()[fine + 1];
   const std::uint32_t threads =
       down ? (c.cells.x + 3) / 4 * c.cells.y * c.cells.z : f.row * f.cells.y * f.cells.z;
-  commands.dispatch(
-      kernel, {threads},
-      {.fine = f, .coarse = c, .control = system_.control(), .mode = 0, .padding = 0});
+  const TransferArgs args{.fine = f,
+                          .coarse = c,
+                          .control = system_.control(),
+                          .tiles = system_.tile_table(),
+                          .mode = 0,
+                          .padding = 0};
+  if (fine == 0 && system_.tiles() != nullptr) {
+    system_.tiles()->dispatch(commands, kernel, down ? tile_pairs : tile_columns, args);
+  } else {
+    commands.dispatch(kernel, {threads}, args);
+  }
+}
+
+void Multigrid::record_sweep(Commands& commands, const std::array<Kernel<SweepArgs>, 2>& kernels,
+                             std::size_t level, std::uint32_t colour) {
+  system_.record_sweep(commands, kernels[level == 0 ? 0 : 1], system_.levels()[level], colour, 1);
 }
 
 void Multigrid::record_small(Commands& commands, std::uint32_t cycles) {
@@ -64,17 +90,15 @@ void Multigrid::record_small(Commands& commands, std::uint32_t cycles) {
 }
 
 void Multigrid::record_down(Commands& commands, std::size_t level, bool zero_guess) {
-  const PressureLevel& grid = system_.levels()[level];
-  if (zero_guess) system_.record_sweep(commands, first_, grid, 0, 1);
-  system_.record_sweep(commands, smooth_, grid, 1, 1);
-  record_transfer(commands, restrict_residual_, level, true);
+  if (zero_guess) record_sweep(commands, first_, level, 0);
+  record_sweep(commands, smooth_, level, 1);
+  record_transfer(commands, restrict_residual_[level == 0 ? 0 : 1], level, true);
 }
 
 void Multigrid::record_up(Commands& commands, std::size_t level) {
-  const PressureLevel& grid = system_.levels()[level];
-  record_transfer(commands, prolong_red_, level, false);
-  system_.record_sweep(commands, smooth_, grid, 1, 1);
-  system_.record_sweep(commands, smooth_, grid, 0, 1);
+  record_transfer(commands, prolong_red_[level == 0 ? 0 : 1], level, false);
+  record_sweep(commands, smooth_, level, 1);
+  record_sweep(commands, smooth_, level, 0);
 }
 
 void Multigrid::record_cycle_from(Commands& commands, std::size_t first, bool zero_guess) {
@@ -99,11 +123,11 @@ void Multigrid::record_solve(Commands& commands, std::uint32_t cycles, bool full
     record_small(commands, 0);
     for (std::size_t level = small_; level-- > 0;) {
       record_transfer(commands, prolong_both_, level, false);
-      system_.record_sweep(commands, smooth_, system_.levels()[level], 0, 1);
+      record_sweep(commands, smooth_, level, 0);
       if (level > 0) record_cycle_from(commands, level, false);
     }
   } else {
-    system_.record_sweep(commands, smooth_, system_.finest(), 0, 1);
+    record_sweep(commands, smooth_, 0, 0);
   }
   for (std::uint32_t cycle = 0; cycle < cycles; ++cycle) {
     record_cycle(commands, false);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <array>
 
 #include "gpu/numerics/pressure_system.h"
 
@@ -24,7 +24,7 @@ class Multigrid {
 
   /// V-cycles, at most `cycles`, until the residual is within the control's tolerance.
   ///
-  /// @param full  begin with full multigrid instead of the pressure that is there.
+  /// @param full  begin with full multigrid instead of the pressure that is there; not with tiles.
   void record_solve(Commands& commands, std::uint32_t cycles, bool full);
 
   static constexpr std::uint32_t small_cells = 16384;
@@ -36,11 +36,16 @@ class Multigrid {
   void record_small(Commands& commands, std::uint32_t cycles);
   void record_transfer(Commands& commands, const Kernel<TransferArgs>& kernel, std::size_t fine,
                        bool down);
+  void record_sweep(Commands& commands, const std::array<Kernel<SweepArgs>, 2>& kernels,
+                    std::size_t level, std::uint32_t colour);
 
   PressureSystem& system_;
   std::size_t small_;  ///< first grid that is visited inside one workgroup
-  Kernel<SweepArgs> smooth_, first_, measure_;
-  Kernel<TransferArgs> restrict_residual_, restrict_rhs_, prolong_red_, prolong_both_;
+  /// Of the finest grid, which may be tiled, and of the others.
+  std::array<Kernel<SweepArgs>, 2> smooth_, first_;
+  Kernel<SweepArgs> measure_;
+  std::array<Kernel<TransferArgs>, 2> restrict_residual_, prolong_red_;
+  Kernel<TransferArgs> restrict_rhs_, prolong_both_;
   Kernel<SmallCycleArgs> small_cycle_;
   Buffer<PressureLevel> levels_;
 };

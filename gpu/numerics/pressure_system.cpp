@@ -90,11 +90,12 @@ PressureShape shape_of(const PressureProblem& problem) {
   return shape;
 }
 
-PressureSystem::PressureSystem(Context& context, const PressureShape& shape)
+PressureSystem::PressureSystem(Context& context, const PressureShape& shape, const TileLists* tiles)
     : shape_(shape),
+      tiles_(tiles),
       run_(run_length(context, shape)),
-      reduce_(context, shaders::numerics_reduce_comp),
-      pack_(context, shaders::numerics_pack_comp),
+      reduce_(context, shaders::numerics_reduce_comp, {{2, is_tiled()}}),
+      pack_(context, shaders::numerics_pack_comp, {{2, is_tiled()}}),
       coarsen_(context, shaders::numerics_coarsen_comp) {
   uvec3 cells = shape.cells, coarse{0};
   for (bool more = true; more; cells = coarse) {
@@ -113,6 +114,8 @@ PressureSystem::PressureSystem(Context& context, const PressureShape& shape)
   control_ = Buffer<SolverControl>(context, 1);
   // Enough for a pass with runs of one cell, and for pairs of vector operations.
   partials_ = Buffer<float>(context, std::max<std::size_t>(quads_of(shape.cells), 1024));
+  if (tiles_ != nullptr) partials_ = Buffer<float>(context, std::size_t{16} * tiles_->tile_count());
+  fill_with_zero(context, words_);
   fill_with_zero(context, pressures_);
   fill_with_zero(context, right_sides_);
 }
@@ -124,40 +127,53 @@ std::uint32_t PressureSystem::quad_count(std::size_t level) const {
 void PressureSystem::record_pack(Commands& commands, BufferRef<std::uint32_t> types,
                                  const std::array<BufferRef<float>, 3>& open, bool all_fluid) {
   if (!shape_.with_words) return;
-  commands.dispatch(pack_, {4 * quad_count()},
-                    {.level = levels_[0],
-                     .types = types,
-                     .open_x = open[0],
-                     .open_y = open[1],
-                     .open_z = open[2],
-                     .all_fluid = all_fluid ? 1u : 0u,
-                     .padding = 0});
+  const PackArgs args{.level = levels_[0],
+                      .types = types,
+                      .open_x = open[0],
+                      .open_y = open[1],
+                      .open_z = open[2],
+                      .tiles = tile_table(),
+                      .all_fluid = all_fluid ? 1u : 0u,
+                      .padding = 0};
+  if (tiles_ != nullptr) {
+    tiles_->dispatch(commands, pack_, touched_cells, args);
+  } else {
+    commands.dispatch(pack_, {4 * quad_count()}, args);
+  }
   for (std::size_t l = 1; l < levels_.size(); ++l)
     commands.dispatch(coarsen_, {4 * quad_count(l)},
                       {.fine = levels_[l - 1],
                        .coarse = levels_[l],
                        .control = control_,
+                       .tiles = {},
                        .mode = 0,
                        .padding = 0});
 }
 
-Kernel<SweepArgs> PressureSystem::make_sweep(Context& context, Sweep mode) const {
+Kernel<SweepArgs> PressureSystem::make_sweep(Context& context, Sweep mode, bool is_finest) const {
   return Kernel<SweepArgs>(context, shaders::numerics_sweep_comp,
-                           {{0, shape_.with_words ? 1u : 0u}, {1, std::uint32_t(mode)}});
+                           {{0, shape_.with_words ? 1u : 0u},
+                            {1, std::uint32_t(mode)},
+                            {2, is_finest ? is_tiled() : 0}});
 }
 
 void PressureSystem::record_sweep(Commands& commands, const Kernel<SweepArgs>& kernel,
                                   const PressureLevel& level, std::uint32_t colour, float omega,
                                   BufferRef<PressureQuad> result) {
-  commands.dispatch(kernel, {thread_count(level, run_)},
-                    {.level = level,
-                     .result = result,
-                     .partials = partials_,
-                     .control = control_,
-                     .colour = colour,
-                     .run = run_,
-                     .omega = omega,
-                     .padding = 0});
+  const SweepArgs args{.level = level,
+                       .result = result,
+                       .partials = partials_,
+                       .control = control_,
+                       .tiles = tile_table(),
+                       .colour = colour,
+                       .run = run_,
+                       .omega = omega,
+                       .padding = 0};
+  if (tiles_ != nullptr && level.cells == finest().cells) {
+    tiles_->dispatch(commands, kernel, tile_rows, args);
+  } else {
+    commands.dispatch(kernel, {thread_count(level, run_)}, args);
+  }
 }
 
 std::uint32_t PressureSystem::sweep_partials() const { return thread_count(finest(), run_); }
@@ -166,7 +182,8 @@ void PressureSystem::record_reduce(Commands& commands, Reduction reduction, std:
   commands.dispatch(reduce_, {256},
                     {.partials = partials_,
                      .control = control_,
-                     .count = count,
+                     .tiles = tile_table(),
+                     .count = tiles_ != nullptr ? tiles_->tile_count() : count,
                      .mode = std::uint32_t(reduction)});
 }
 

@@ -7,6 +7,7 @@
 #include "gpu/core/buffer.h"
 #include "gpu/core/commands.h"
 #include "gpu/core/kernel.h"
+#include "gpu/numerics/tile_lists.h"
 #include "shaders/numerics/layout.h"
 #include "sim/pressure.h"
 
@@ -43,7 +44,9 @@ PressureShape shape_of(const FluidDomain& domain, bool with_words);
 /// Mathematics: sim/pressure.h. Layout: shaders/numerics/layout.h.
 class PressureSystem {
  public:
-  PressureSystem(Context& context, const PressureShape& shape);
+  /// @param tiles  of the finest grid, all others are visited whole; null: the whole box. Cells of
+  ///               other tiles are air and keep a pressure of 0. Needs words.
+  PressureSystem(Context& context, const PressureShape& shape, const TileLists* tiles = nullptr);
 
   const PressureShape& shape() const { return shape_; }
   const std::vector<PressureLevel>& levels() const { return levels_; }
@@ -54,6 +57,12 @@ class PressureSystem {
   const Buffer<SolverControl>& control() const { return control_; }
   const Buffer<float>& partials() const { return partials_; }
   std::uint32_t run() const { return run_; }
+  const TileLists* tiles() const { return tiles_; }
+  /// Null but for the finest grid.
+  const TileLists* tiles(std::size_t level) const { return level == 0 ? tiles_ : nullptr; }
+  BufferRef<TileTable> tile_table() const {
+    return tiles_ != nullptr ? tiles_->table() : BufferRef<TileTable>{};
+  }
 
   /// Words of all grids. Arrays are those of sim/pressure.h in float; types empty: all fluid.
   void record_pack(Commands& commands, BufferRef<std::uint32_t> types,
@@ -66,7 +75,8 @@ class PressureSystem {
   std::uint32_t sweep_partials() const;
   void record_reduce(Commands& commands, Reduction reduction, std::uint32_t count);
 
-  Kernel<SweepArgs> make_sweep(Context& context, Sweep mode) const;
+  /// For the finest grid, or the others.
+  Kernel<SweepArgs> make_sweep(Context& context, Sweep mode, bool is_finest = true) const;
 
   /// Host arrays: a field of cells, x fastest, to and from colours.
   std::vector<PressureQuad> to_quads(const Field& field) const;
@@ -80,7 +90,10 @@ class PressureSystem {
   SolverControl read_control() const { return control_.read().front(); }
 
  private:
+  std::uint32_t is_tiled() const { return tiles_ != nullptr ? 1 : 0; }
+
   PressureShape shape_;
+  const TileLists* tiles_;
   std::uint32_t run_;
   std::vector<Buffer<PressureQuad>> pressures_, right_sides_;
   std::vector<Buffer<PressureWords>> words_;

@@ -2,6 +2,8 @@
 #include "numerics/layout.h"
 #include "fluid/layout.h"
 #include "fluid/grid.glsl"
+#include "numerics/tiles.glsl"
+#include "fluid/points.glsl"
 #include "fluid/trace.glsl"
 
 // Carries a field along: each point takes the value from where its fluid came. One thread a point.
@@ -13,20 +15,23 @@ const uint semi_lagrangian = 0u;
 /// other, or field_result before, holds the field carried forth by semi_lagrangian: it is carried back
 /// and half of what is missing then is given to it, within the values around the place it came from.
 const uint correct = 1u;
-const uint keep = 2u;  ///< cells: field_result = field
+const uint keep = 2u;  ///< faces: result = velocity; cells: field_result = field
 
 void main() {
   const float step = args.clock.at[0].step;
   if (step == 0.0) return;
   FluidScene scene = args.scene.at[0];
-  const ivec3 size = points_of(scene.cells, args.axis);
-  const uint index = gl_GlobalInvocationID.x;
-  if (index >= point_count(size)) return;
+  ivec3 at;
+  if (!point_of_thread(scene, args.axis, at)) return;
+  const uint index = point_index(points_of(scene.cells, args.axis), at);
   if (args.mode == keep) {
-    args.field_result.at[index] = args.field.at[index];
+    if (args.axis < 3u) {
+      write_face(args.result, args.axis, index, read_face(args.velocity, args.axis, index));
+    } else {
+      args.field_result.at[index] = args.field.at[index];
+    }
     return;
   }
-  const ivec3 at = point_of(size, index);
   if (args.axis < 3u && in_closed_wall(scene, args.axis, at)) {
     write_face(args.result, args.axis, index, 0.0);
     return;

@@ -2,16 +2,19 @@
 #include "numerics/layout.h"
 #include "fluid/layout.h"
 #include "fluid/grid.glsl"
+#include "numerics/tiles.glsl"
+#include "fluid/points.glsl"
 
-// Solid, fluid or air; one thread a cell. Source: sim/fluid.h, cell_types.
+// Solid, fluid or air; one thread a cell. What lies in no active tile counts as air. Source: sim/fluid.h, cell_types.
 layout(local_size_x = 64) in;
 layout(scalar, push_constant) uniform Push { FluidCellArgs args; };
 
 void main() {
-  const uvec3 cells = args.scene.at[0].cells;
-  const uint index = gl_GlobalInvocationID.x;
-  if (index >= cells.x * cells.y * cells.z) return;
-  const ivec3 cell = point_of(ivec3(cells), index);
+  FluidScene scene = args.scene.at[0];
+  const uvec3 cells = scene.cells;
+  ivec3 cell;
+  if (!listed_point_of_thread(scene, 3u, cell)) return;
+  const uint index = point_index(ivec3(cells), cell);
   float room = 0.0;
   for (uint axis = 0u; axis < 3u; ++axis) {
     const ivec3 size = points_of(cells, axis);
@@ -20,5 +23,7 @@ void main() {
   }
   uint type = 0u;
   if (args.is_liquid != 0u && args.ranges.at[2u * index + 1u] == 0u) type = 1u;
-  args.types.at[index] = room == 0.0 ? 2u : type;
+  if (room == 0.0) type = 2u;
+  if (with_tiles != 0u && !in_active_tile(scene, cell)) type = 1u;
+  args.types.at[index] = type;
 }

@@ -45,7 +45,8 @@ void main() {
   uint k = 0u;
   const uint run = uint(args.weight);
   for (uint axis = 0u; axis < 3u; ++axis) {
-    const uint chunks = (point_count(points_of(scene.cells, axis)) + run - 1u) / run;
+    const uint chunks =
+        run == 0u ? tile_speeds : (point_count(points_of(scene.cells, axis)) + run - 1u) / run;
     float most = 0.0;
     for (uint c = 0u; c < chunks; ++c) most = max(most, args.field.at[k + c]);
     k += chunks;

@@ -2,6 +2,8 @@
 #include "numerics/layout.h"
 #include "fluid/layout.h"
 #include "fluid/grid.glsl"
+#include "numerics/tiles.glsl"
+#include "fluid/points.glsl"
 #include "fluid/momentum.glsl"
 
 // Viscosity: one explicit step, or a red-black sweep of the implicit one; one thread a face. Source:
@@ -27,10 +29,9 @@ void main() {
   const float step = args.clock.at[0].step;
   if (step == 0.0) return;
   FluidScene scene = args.scene.at[0];
-  const ivec3 size = points_of(scene.cells, args.axis);
-  const uint index = gl_GlobalInvocationID.x;
-  if (index >= point_count(size)) return;
-  const ivec3 at = point_of(size, index);
+  ivec3 at;
+  if (!point_of_thread(scene, args.axis, at)) return;
+  const uint index = point_index(points_of(scene.cells, args.axis), at);
   if (in_closed_wall(scene, args.axis, at)) {
     write_face(args.result, args.axis, index, 0.0);
     return;

@@ -2,6 +2,8 @@
 #include "numerics/layout.h"
 #include "fluid/layout.h"
 #include "fluid/grid.glsl"
+#include "numerics/tiles.glsl"
+#include "fluid/points.glsl"
 #include "numerics/words.glsl"
 
 // The right side of the pressure's equations from the flow out of each cell, through open faces and
@@ -27,10 +29,17 @@ void main() {
   PressureLevel level;
   level.cells = scene.cells;
   level.row = (scene.cells.x + 7u) / 8u;
-  const uint slot = gl_GlobalInvocationID.x;
-  if (step == 0.0 || slot >= slot_count(level)) return;
+  uint slot = gl_GlobalInvocationID.x;
+  if (step == 0.0) return;
   uvec3 cell;
-  if (!cell_of_slot(level, slot, cell)) return;
+  if (with_tiles != 0u) {
+    ivec3 at;
+    if (!point_of_thread(scene, 3u, at)) return;
+    cell = uvec3(at);
+    slot = slot_of_cell(level, cell);
+  } else if (slot >= slot_count(level) || !cell_of_slot(level, slot, cell)) {
+    return;
+  }
   float result = 0.0;
   if (with_solids == 0u ||
       args.types.at[point_index(ivec3(scene.cells), ivec3(cell))] == 0u) {

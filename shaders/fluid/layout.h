@@ -17,6 +17,10 @@ const uint wall_open = 2u;
 const uint wall_periodic = 3u;
 const uint fluid_upwind = 0u;
 const uint fluid_central = 1u;
+/// Cells along the side of a block; two blocks a side of a tile.
+const uint block_side = 4u;
+/// Parts of an axis' listed tiles that the largest speed is found in.
+const uint tile_speeds = 256u;
 
 struct FluidSolidRecord {
   vec3 center;  ///< m, at time 0
@@ -58,9 +62,12 @@ struct FluidScene {
   uint implicit_viscosity;
   uint solid_count;
   uint source_count;
+  float busy_smoke;  ///< what makes a block busy, sim/fluid.h
+  float busy_heat;
+  float busy_speed;
   uint walls[6];
   vec3 wall_velocities[6];
-  uint padding;
+  REF(TileTable) tiles;  ///< null: the whole box
   REF(FluidSolidRecord) solids;
   REF(FluidSourceRecord) sources;
 };
@@ -95,6 +102,20 @@ struct FluidArgs {
   uint axis;  ///< 0 to 2: faces; 3: cells
   uint mode;
   float weight;
+};
+
+/// What is where, by tiles.
+struct FluidTileArgs {
+  REF(FluidScene) scene;
+  REF(FluidClock) clock;
+  FluidFaces velocity;
+  REF(float) smoke;
+  REF(float) temperature;
+  REF(uint) ranges;  ///< of particles in cells, as in LiquidArgs
+  REF(uint) held;    ///< of each block, eight a tile: a source is in it
+  REF(uint) blocks;  ///< of each block: it is busy
+  uint is_liquid;
+  uint padding;
 };
 
 /// What solids do to faces and cells.

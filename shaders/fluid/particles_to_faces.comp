@@ -2,6 +2,8 @@
 #include "numerics/layout.h"
 #include "fluid/layout.h"
 #include "fluid/grid.glsl"
+#include "numerics/tiles.glsl"
+#include "fluid/points.glsl"
 #include "fluid/liquid.glsl"
 
 // Velocity of faces from the particles around; one thread a face gathers from the cells that reach
@@ -37,10 +39,9 @@ void gather_cell(FluidScene scene, ivec3 face, ivec3 cell, inout float momentum,
 void main() {
   if (args.clock.at[0].step == 0.0) return;
   FluidScene scene = args.scene.at[0];
-  const ivec3 size = points_of(scene.cells, args.axis);
-  const uint index = gl_GlobalInvocationID.x;
-  if (index >= point_count(size)) return;
-  const ivec3 face = point_of(size, index);
+  ivec3 face;
+  if (!point_of_thread(scene, args.axis, face)) return;
+  const uint index = point_index(points_of(scene.cells, args.axis), face);
   ivec3 low = -ivec3(1), high = ivec3(1);
   high[args.axis] = 0;
   if (scene.cells.z == 1u) low.z = high.z = 0;

@@ -2,6 +2,8 @@
 #include "numerics/layout.h"
 #include "fluid/layout.h"
 #include "fluid/grid.glsl"
+#include "numerics/tiles.glsl"
+#include "fluid/points.glsl"
 
 // What smoke and heat do; one thread a cell, or a face of an axis. Source: notes 10.4; Fedkiw, Stam &
 // Jensen 2001.
@@ -97,10 +99,10 @@ void main() {
   const float step = args.clock.at[0].step;
   if (step == 0.0) return;
   FluidScene scene = args.scene.at[0];
-  const ivec3 size = mode == forces ? points_of(scene.cells, args.axis) : ivec3(scene.cells);
-  const uint index = gl_GlobalInvocationID.x;
-  if (index >= point_count(size)) return;
-  const ivec3 at = point_of(size, index);
+  const uint axis = mode == forces ? args.axis : 3u;
+  ivec3 at;
+  if (!point_of_thread(scene, axis, at)) return;
+  const uint index = point_index(points_of(scene.cells, axis), at);
   if (mode == sources) {
     hold_sources(scene, step, at, index);
   } else if (mode == vorticity) {

@@ -2,6 +2,8 @@
 #include "numerics/layout.h"
 #include "fluid/layout.h"
 #include "fluid/grid.glsl"
+#include "numerics/tiles.glsl"
+#include "fluid/points.glsl"
 #include "fluid/solid.glsl"
 
 // How open each face of an axis is at the end of the step and how fast what closes it moves; one
@@ -12,10 +14,9 @@ layout(scalar, push_constant) uniform Push { FluidCellArgs args; };
 
 void main() {
   FluidScene scene = args.scene.at[0];
-  const ivec3 size = points_of(scene.cells, args.axis);
-  const uint index = gl_GlobalInvocationID.x;
-  if (index >= point_count(size)) return;
-  const ivec3 face = point_of(size, index);
+  ivec3 face;
+  if (!point_of_thread(scene, args.axis, face)) return;
+  const uint index = point_index(points_of(scene.cells, args.axis), face);
   float open = 0.0, speed = 0.0;
   if (!in_closed_wall(scene, args.axis, face)) {
     const float time = args.clock.at[0].time + args.clock.at[0].step;

@@ -2,6 +2,8 @@
 #include "numerics/layout.h"
 #include "fluid/layout.h"
 #include "fluid/grid.glsl"
+#include "numerics/tiles.glsl"
+#include "fluid/points.glsl"
 
 // The largest speed along each axis: one thread finds it for `weight` faces of an axis. Source: notes
 // 10.4, the CFL condition.
@@ -9,9 +11,23 @@ layout(local_size_x = 64) in;
 layout(scalar, push_constant) uniform Push { FluidArgs args; };
 
 void main() {
+  float largest = 0.0;
+  if (with_tiles != 0u) {
+    FluidScene scene = args.scene.at[0];
+    const uint id = gl_GlobalInvocationID.x, count = scene.tiles.at[0].groups.at[0];
+    const uint slots = scene.cells.z == 1u ? 128u : 576u;
+    for (uint k = id * count / tile_speeds; k < (id + 1u) * count / tile_speeds; ++k)
+      for (uint slot = 0u; slot < slots; ++slot) {
+        ivec3 at;
+        if (!listed_point_of_slot(scene, args.axis, k, slot, at)) continue;
+        const uint index = point_index(points_of(scene.cells, args.axis), at);
+        largest = max(largest, abs(read_face(args.velocity, args.axis, index)));
+      }
+    if (id < tile_speeds) args.field.at[args.mode + id] = largest;
+    return;
+  }
   const uint run = uint(args.weight);
   const uvec3 cells = args.scene.at[0].cells;
-  float largest = 0.0;
   const uint begin = gl_GlobalInvocationID.x * run;
   const uint end = min(begin + run, point_count(points_of(cells, args.axis)));
   for (uint k = begin; k < end; ++k)

@@ -2,6 +2,8 @@
 #include "numerics/layout.h"
 #include "fluid/layout.h"
 #include "fluid/grid.glsl"
+#include "numerics/tiles.glsl"
+#include "fluid/points.glsl"
 #include "numerics/words.glsl"
 
 // Takes the pressure's gradient off the velocity of every open face beside fluid; closed faces move
@@ -33,10 +35,9 @@ void main() {
   if (step == 0.0) return;
   FluidScene scene = args.scene.at[0];
   const uint axis = args.mode >> 1u;
-  const ivec3 size = points_of(scene.cells, axis);
-  const uint index = gl_GlobalInvocationID.x;
-  if (index >= point_count(size)) return;
-  const ivec3 face = point_of(size, index);
+  ivec3 face;
+  if (!point_of_thread(scene, axis, face)) return;
+  const uint index = point_index(points_of(scene.cells, axis), face);
   if (in_closed_wall(scene, axis, face)) {
     write_face(args.velocity, axis, index, 0.0);
     return;

@@ -66,11 +66,51 @@ struct SolverControl {
 };
 REF_TYPE(SolverControl, 4)
 
+/// Cells along the side of a tile.
+const uint grid_tile = 8u;
+/// Flags of a tile: it is active; it was until now.
+const uint tile_active = 1u;
+const uint tile_left = 2u;
+
+/// Where TileTable::groups has the workgroups of 64 threads that cover the listed tiles, three numbers
+/// each: 8 threads a tile, 16, 64, all its cells, all its faces of an axis; the same for the tiles
+/// that were left too.
+const uint tile_rows = 2u;
+const uint tile_pairs = 5u;
+const uint tile_columns = 8u;
+const uint tile_cells = 11u;
+const uint tile_faces = 14u;
+const uint touched_cells = 17u;
+const uint touched_faces = 20u;
+/// There the count of active tiles, listed or not.
+const uint active_tiles = 23u;
+
+/// The tiles of a box that are worked on.
+struct TileTable {
+  REF(uint) flags;   ///< of all tiles of the box, x fastest
+  REF(uint) list;    ///< x, y, z in 10 bits each: active tiles in the order of flags, then the left
+  REF(uint) groups;  ///< [0] count of listed tiles, [1] with the left; then as said above
+  /// [k]: place in the list of the first active tile of the k-th of 256 equal parts of the box; sums
+  /// by these parts do not depend on which tiles are active but hold only zeros.
+  REF(uint) starts;
+  uint visit_all;  ///< 1: the list has all tiles of the box, active or not
+  uint padding;
+};
+REF_TYPE(TileTable, 8)
+
+struct TileListArgs {
+  REF(TileTable) table;
+  REF(float) clock;  ///< 0 there: nothing is done
+  uvec3 tiles;
+  uint is_flat;
+};
+
 struct SweepArgs {
   PressureLevel level;
   REF(PressureQuad) result;
   REF(float) partials;  ///< one a thread
   REF(SolverControl) control;
+  REF(TileTable) tiles;  ///< null: the whole box
   uint colour;
   uint run;  ///< cells along z a thread
   float omega;
@@ -81,6 +121,7 @@ struct TransferArgs {
   PressureLevel fine;
   PressureLevel coarse;
   REF(SolverControl) control;
+  REF(TileTable) tiles;  ///< of the fine grid
   uint mode;
   uint padding;
 };
@@ -104,6 +145,9 @@ struct VectorArgs {
   REF(PressureWords) words;
   REF(float) partials;  ///< two a thread
   REF(SolverControl) control;
+  REF(TileTable) tiles;
+  uvec3 cells;
+  uint row;
   uint quads;
   uint run;  ///< quads a thread
   uint mode;
@@ -113,7 +157,8 @@ struct VectorArgs {
 struct ReduceArgs {
   REF(float) partials;
   REF(SolverControl) control;
-  uint count;
+  REF(TileTable) tiles;  ///< null: the whole box
+  uint count;            ///< of partials; with tiles, which leave 8 each: of all tiles of the box
   uint mode;
 };
 
@@ -123,6 +168,7 @@ struct PackArgs {
   REF(float) open_x;
   REF(float) open_y;
   REF(float) open_z;
+  REF(TileTable) tiles;
   uint all_fluid;  ///< types are not read
   uint padding;
 };

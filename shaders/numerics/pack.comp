@@ -1,9 +1,10 @@
 #version 460
 #include "numerics/layout.h"
 #include "numerics/words.glsl"
+#include "numerics/tiles.glsl"
 
 // The words of the finest grid from the types of cells and the open parts of faces; one thread a
-// cell. Source: numerics/layout.h.
+// cell; of tiles also those that were left. Source: numerics/layout.h.
 layout(local_size_x = 64) in;
 layout(scalar, push_constant) uniform Push { PackArgs args; };
 
@@ -17,14 +18,26 @@ uint face(uvec3 cell, uint axis) {
 }
 
 void main() {
-  const uint slot = gl_GlobalInvocationID.x;
-  if (slot >= slot_count(args.level)) return;
-  uvec3 cell;
-  if (!cell_of_slot(args.level, slot, cell)) {
-    ref_uint(args.level.words).at[slot] = 0u;
-    return;
-  }
   const uvec3 n = args.level.cells;
+  uint slot = gl_GlobalInvocationID.x;
+  uvec3 cell;
+  if (with_tiles == 0u) {
+    if (slot >= slot_count(args.level)) return;
+    if (!cell_of_slot(args.level, slot, cell)) {
+      ref_uint(args.level.words).at[slot] = 0u;
+      return;
+    }
+  } else {
+    const uint at = gl_WorkGroupID.y * 64u + gl_LocalInvocationID.x;
+    cell = grid_tile * tile_at(args.tiles.at[0].list.at[gl_WorkGroupID.x]) +
+           uvec3(at % 8u, at / 8u % 8u, at / 64u);
+    if (any(greaterThanEqual(cell, n))) return;
+    slot = slot_of_cell(args.level, cell);
+    if (!is_active(args.tiles.at[0], n, cell / grid_tile)) {
+      ref_uint(args.level.words).at[slot] = pressure_air;
+      return;
+    }
+  }
   const uint type = args.all_fluid != 0u ? 0u : args.types.at[(cell.z * n.y + cell.y) * n.x + cell.x];
   uint word = type == 0u ? pressure_fluid : (type == 1u ? pressure_air : 0u);
   for (uint axis = 0u; axis < 3u; ++axis) {

@@ -1,5 +1,6 @@
 #version 460
 #include "numerics/layout.h"
+#include "numerics/tiles.glsl"
 
 // Partial results to one number, always in the same order, and what an iteration makes of it; one
 // workgroup. Source: notes 9.3; Polak & Ribiere 1969 for beta, which allows a preconditioner that is
@@ -30,7 +31,9 @@ void finish(vec2 total) {
   } else if (args.mode == step_length) {
     args.control.at[0].alpha = total.x != 0.0 ? c.rho / total.x : 0.0;
   } else {
-    args.control.at[0].mean = total.y > 0.0 ? total.x / total.y : 0.0;
+    // Beside tiles that are left out is air: then any right side has a solution.
+    const bool open = with_tiles != 0u && args.tiles.at[0].groups.at[active_tiles] < args.count;
+    args.control.at[0].mean = total.y > 0.0 && !open ? total.x / total.y : 0.0;
   }
 }
 
@@ -38,10 +41,15 @@ void main() {
   if (args.control.at[0].done != 0u) return;
   const uint id = gl_LocalInvocationID.x;
   const uint chunk = (args.count + 255u) / 256u;
-  const uint end = min((id + 1u) * chunk, args.count);
+  uint begin = id * chunk, end = min((id + 1u) * chunk, args.count);
+  if (with_tiles != 0u) {
+    TileTable table = args.tiles.at[0];
+    begin = 8u * table.starts.at[id];
+    end = 8u * table.starts.at[id + 1u];
+  }
   const bool pairs = args.mode == next_direction || args.mode == mean;
   vec2 sum = vec2(0.0);
-  for (uint k = id * chunk; k < end; ++k) {
+  for (uint k = begin; k < end; ++k) {
     if (is_largest()) {
       sum.x = max(sum.x, args.partials.at[k]);
     } else if (pairs) {

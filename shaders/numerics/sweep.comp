@@ -1,6 +1,7 @@
 #version 460
 #include "numerics/layout.h"
 #include "numerics/pressure.glsl"
+#include "numerics/tiles.glsl"
 
 // One pass over the cells of a pressure system; one thread takes a column of quads along z and keeps
 // the planes below and above in registers. Source: notes 9.3 (Jacobi, Gauss-Seidel); row 148: red
@@ -96,9 +97,19 @@ void main() {
   const uint columns = row * args.level.cells.y;
   const uint runs = (args.level.cells.z + args.run - 1u) / args.run;
   const uint id = gl_GlobalInvocationID.x;
-  if (id >= columns * runs) return;
-  const uint i = id % row, y = (id / row) % args.level.cells.y, begin = (id / columns) * args.run;
-  const uint end = min(begin + args.run, args.level.cells.z);
+  uint i = id % row, y = (id / row) % args.level.cells.y, begin = (id / columns) * args.run;
+  uint end = min(begin + args.run, args.level.cells.z);
+  if (with_tiles == 0u && id >= columns * runs) return;
+  if (with_tiles != 0u) {
+    // Eight threads a tile, a column each.
+    TileTable table = args.tiles.at[0];
+    if (id / 8u >= table.groups.at[0]) return;
+    const uvec3 corner = grid_tile * tile_at(table.list.at[id / 8u]);
+    i = corner.x / 8u;
+    y = corner.y + id % 8u;
+    begin = corner.z;
+    end = y < args.level.cells.y ? min(begin + grid_tile, args.level.cells.z) : begin;
+  }
   if (mode == first_colour) {
     for (uint z = begin; z < end; ++z) from_zero(i, y, z);
   } else if (mode == smooth_colour) {

@@ -2,6 +2,7 @@
 #include "numerics/layout.h"
 #include "numerics/pressure.glsl"
 #include "numerics/transfer.glsl"
+#include "numerics/tiles.glsl"
 
 // Restriction and prolongation of a multigrid cycle. Restricting, one thread takes four coarse cells
 // along x; prolonging, one quad. Source: Trottenberg, Oosterlee & Schueller 2001; the interpolation
@@ -22,8 +23,19 @@ void main() {
   const uint row = down ? (args.coarse.cells.x + 3u) / 4u : args.fine.row;
   const uvec2 size = down ? args.coarse.cells.yz : args.fine.cells.yz;
   const uint id = gl_GlobalInvocationID.x;
-  if (id >= row * size.x * size.y) return;
-  const uint i = id % row, y = (id / row) % size.x, z = id / (row * size.x);
+  uint i = id % row, y = (id / row) % size.x, z = id / (row * size.x);
+  if (with_tiles == 0u && id >= row * size.x * size.y) return;
+  if (with_tiles != 0u) {
+    // Under a fine tile lie four by four rows of coarse cells, in it eight by eight of quads.
+    const uint side = down ? 4u : 8u, k = id / (side * side);
+    TileTable table = args.tiles.at[0];
+    if (k >= table.groups.at[0]) return;
+    const uvec3 tile = tile_at(table.list.at[k]);
+    i = tile.x;
+    y = side * tile.y + id % side;
+    z = side * tile.z + id / side % side;
+    if (y >= size.x || z >= size.y) return;
+  }
   if (mode == restrict_residual) {
     store_row(args.coarse, i, y, z, restricted_residual(args.fine, args.coarse, i, y, z));
   } else if (mode == restrict_rhs) {

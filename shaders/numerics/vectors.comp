@@ -1,7 +1,9 @@
 #version 460
 #include "numerics/layout.h"
+#include "numerics/tiles.glsl"
 
-// The vector operations of conjugate gradients; one thread takes `run` quads in a row. Source: notes
+// The vector operations of conjugate gradients; one thread takes `run` quads in
+// a row, or a plane of a tile. Source: notes
 // 9.3; Hestenes & Stiefel 1952.
 layout(local_size_x = 64) in;
 layout(scalar, push_constant) uniform Push { VectorArgs args; };
@@ -44,32 +46,46 @@ void add_exactly(uint k, float alpha) {
   args.x_low.at[k].cells = remainder;
 }
 
+/// Quad k; what it adds to the partials goes to a and b.
+void work_on(SolverControl control, uint k, inout vec4 a, inout vec4 b) {
+  if (mode == dots) {
+    const vec4 z = args.z.at[k].cells;
+    a += z * args.r.at[k].cells;
+    b += z * args.q.at[k].cells;
+  } else if (mode == direction) {
+    args.d.at[k].cells = args.z.at[k].cells + control.beta * args.d.at[k].cells;
+  } else if (mode == advance) {
+    add_exactly(k, control.alpha);
+    const vec4 r = args.r.at[k].cells - control.alpha * args.q.at[k].cells;
+    args.r.at[k].cells = r;
+    a = max(a, abs(r));
+  } else if (mode == sums) {
+    const vec4 mask = fluid(k);
+    a += mask * args.r.at[k].cells;
+    b += mask;
+  } else {
+    args.r.at[k].cells -= control.mean * fluid(k);
+  }
+}
+
 void main() {
   const SolverControl control = args.control.at[0];
   if (control.done != 0u) return;
   const uint id = gl_GlobalInvocationID.x;
-  const uint begin = id * args.run, end = min(begin + args.run, args.quads);
-  if (begin >= args.quads) return;
   vec4 a = vec4(0.0), b = vec4(0.0);
-  for (uint k = begin; k < end; ++k) {
-    if (mode == dots) {
-      const vec4 z = args.z.at[k].cells;
-      a += z * args.r.at[k].cells;
-      b += z * args.q.at[k].cells;
-    } else if (mode == direction) {
-      args.d.at[k].cells = args.z.at[k].cells + control.beta * args.d.at[k].cells;
-    } else if (mode == advance) {
-      add_exactly(k, control.alpha);
-      const vec4 r = args.r.at[k].cells - control.alpha * args.q.at[k].cells;
-      args.r.at[k].cells = r;
-      a = max(a, abs(r));
-    } else if (mode == sums) {
-      const vec4 mask = fluid(k);
-      a += mask * args.r.at[k].cells;
-      b += mask;
-    } else {
-      args.r.at[k].cells -= control.mean * fluid(k);
-    }
+  if (with_tiles == 0u) {
+    const uint begin = id * args.run, end = min(begin + args.run, args.quads);
+    if (begin >= args.quads) return;
+    for (uint k = begin; k < end; ++k) work_on(control, k, a, b);
+  } else {
+    // Eight threads a tile, one plane of it each.
+    TileTable table = args.tiles.at[0];
+    if (id / 8u >= table.groups.at[0]) return;
+    const uvec3 tile = tile_at(table.list.at[id / 8u]);
+    const uint y = grid_tile * tile.y, z = grid_tile * tile.z + id % 8u;
+    for (uint k = 0u; k < 16u && z < args.cells.z; ++k)
+      if (y + k % 8u < args.cells.y)
+        work_on(control, ((k / 8u * args.cells.z + z) * args.cells.y + y + k % 8u) * args.row + tile.x, a, b);
   }
   if (mode == direction || mode == subtract_mean) return;
   if (mode == advance) {

@@ -68,17 +68,14 @@ const Registration advect_registration = register_stage<Problem, FluidState>(
      .problem = with_method,
      .cpu = {Cpu{.solve =
                      [](const Problem& p) {
-                       const FluidMethod method = p.fluid.parameters.method;
                        const FluidState& state = p.fluid.initial;
                        FluidState result = state;
                        for (int axis = 0; axis < 3; ++axis)
-                         result.velocity[std::size_t(axis)] =
-                             cpu::advect(p.fluid, state.velocity, state.velocity[std::size_t(axis)],
-                                         axis, p.seconds, method);
-                       result.smoke =
-                           cpu::advect(p.fluid, state.velocity, state.smoke, -1, p.seconds, method);
-                       result.temperature = cpu::advect(p.fluid, state.velocity, state.temperature,
-                                                        -1, p.seconds, method);
+                         result.velocity[std::size_t(axis)] = cpu::advect(
+                             p.fluid, state, state.velocity[std::size_t(axis)], axis, p.seconds);
+                       result.smoke = cpu::advect(p.fluid, state, state.smoke, -1, p.seconds);
+                       result.temperature =
+                           cpu::advect(p.fluid, state, state.temperature, -1, p.seconds);
                        return result;
                      }}},
      .gpu = {Gpu{.solve =
