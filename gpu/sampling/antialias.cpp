@@ -11,6 +11,7 @@
 #include "gpu/core/commands.h"
 #include "gpu/core/kernel.h"
 #include "gpu/raster/compute_renderer.h"
+#include "gpu/raster/half.h"
 #include "gpu/raster/pipeline_renderer.h"
 #include "gpu/raster/prefix_sum.h"
 #include "gpu/raster/renderer.h"
@@ -36,13 +37,22 @@ Context& checked(Context& context) {
 
 std::uint32_t tiles(int pixels) { return (std::uint32_t(pixels) + tile_side - 1) / tile_side; }
 
-std::vector<Specialization> refine_constants(const SceneBuffers& scene, DepthMode depth,
-                                             bool has_environment) {
-  std::vector<Specialization> constants =
-      scene_specializations(scene.features(), {.elements = false, .full_float = true});
-  constants.push_back({11, std::uint32_t(depth)});
-  constants.push_back({22, scene.features().layers});
-  constants.push_back({23, has_environment});
+/// What the kernel that draws pixels anew is made for.
+struct RefineKey {
+  DepthMode depth;
+  bool blends;
+  bool environment;  ///< a picture of it
+
+  bool operator==(const RefineKey&) const = default;
+};
+
+std::vector<Specialization> refine_constants(const SceneFeatures& features, RefineKey key) {
+  std::vector<Specialization> constants = scene_specializations(features, {});
+  constants.push_back({9, features.cuts_out});
+  constants.push_back({11, std::uint32_t(key.depth)});
+  constants.push_back({12, key.blends});
+  constants.push_back({22, features.layers});
+  constants.push_back({23, key.environment});
   return constants;
 }
 
@@ -107,29 +117,38 @@ struct Lists {
 struct Target {
   Target(Context& context, ivec2 picture)
       : size(picture),
-        places(std::size_t(tiles(size.x)) * tiles(size.y) * tile_side * tile_side),
-        colors(context, std::size_t(size.x) * std::size_t(size.y)),
-        flags(context, places + 1),
-        pixels(context, colors.count()),
-        prefix_sum(context, places + 1) {}
+        rows(std::size_t(tiles(size.x)) * tiles(size.y) * tile_side),
+        pixel_count(std::size_t(size.x) * std::size_t(size.y)),
+        masks(context, rows),
+        counts(context, rows + 1),
+        pixels(context, pixel_count),
+        codes(context, pixel_count),
+        averages(context, 2 * pixel_count),
+        prefix_sum(context, rows + 1) {}
 
-  PixelNeedArgs need(float contrast, float gain) const {
-    return {.colors = colors,
-            .flags = flags,
+  PixelNeedArgs need(const Buffer<std::uint32_t>& words, float contrast, float gain) const {
+    return {.words = words,
+            .codes = codes,
+            .averages = averages,
+            .masks = masks,
+            .counts = counts,
             .pixels = pixels,
             .width = std::uint32_t(size.x),
             .height = std::uint32_t(size.y),
             .tiles_x = tiles(size.x),
-            .place_count = std::uint32_t(places),
+            .row_count = std::uint32_t(rows),
             .gain = gain,
             .contrast = contrast};
   }
 
   ivec2 size;
-  std::size_t places;  ///< whole tiles
-  Buffer<vec4> colors;
-  Buffer<std::uint32_t> flags;
+  std::size_t rows;  ///< of 8 pixels, of whole tiles
+  std::size_t pixel_count;
+  Buffer<std::uint32_t> masks;
+  Buffer<std::uint32_t> counts;
   Buffer<std::uint32_t> pixels;
+  Buffer<std::uint32_t> codes;
+  Buffer<std::uint32_t> averages;
   PrefixSum prefix_sum;
 };
 
@@ -143,6 +162,7 @@ struct Antialiaser::State {
         blended(scene),
         pipelines(device, buffers, {}),
         sum(device, shaders::sampling_frame_sum_comp),
+        display(device, shaders::sampling_display_codes_comp),
         need(device, shaders::sampling_pixel_need_comp),
         list(device, shaders::sampling_pixel_list_comp),
         triangles(device, shaders::raster_scene_triangles_comp) {}
@@ -150,9 +170,13 @@ struct Antialiaser::State {
   void begin(const Frame& frame);
   void add(Commands& commands, const Frame& frame, const SceneFrame& data, bool is_first,
            float weight);
-  void refine(Commands& commands, const Frame& frame, const Lists& of, std::uint32_t count,
-              bool has_unseen);
-  Picture finish(const Frame& frame, const SceneFrame& data);
+  void find_needs(Commands& commands, float contrast, float gain);
+  void make_lists(const Frame& frame);
+  void refine(const Frame& frame, std::uint32_t count, bool blends);
+  void keep(const Timing& timing) {
+    passes.insert(passes.end(), timing.passes.begin(), timing.passes.end());
+  }
+  Picture finish(const Frame& frame, const SceneFrame& data, std::vector<vec4> colors);
 
   Context& context;
   std::uint64_t bytes_before;
@@ -160,12 +184,13 @@ struct Antialiaser::State {
   BlendedPrimitives blended;
   PipelineRenderer pipelines;
   Kernel<FrameSumArgs> sum;
-  Kernel<PixelNeedArgs> need, list;
+  Kernel<PixelNeedArgs> display, need, list;
   Kernel<SceneTriangleArgs> triangles;
   std::optional<Kernel<RefineArgs>> refine_kernel;
-  std::pair<DepthMode, bool> refine_key;  ///< with an environment's picture
+  RefineKey refine_key{};
   std::optional<Target> target;
-  std::optional<Lists> lists;  ///< kept while size, depth and count of triangles stay
+  std::optional<Buffer<vec4>> mean;  ///< of accumulated frames
+  std::optional<Lists> lists;        ///< kept while size, depth and count of triangles stay
   std::vector<std::pair<std::string, double>> passes;
   double refined = 0;
 };
@@ -178,6 +203,7 @@ void Antialiaser::State::begin(const Frame& frame) {
   const ivec2 size{frame.options.width, frame.options.height};
   if (!target || target->size != size) {
     target.reset();
+    mean.reset();
     target.emplace(context, size);
   }
   passes.clear();
@@ -187,45 +213,79 @@ void Antialiaser::State::add(Commands& commands, const Frame& frame, const Scene
                              bool is_first, float weight) {
   pipelines.record(commands, frame, data);
   commands.pass("sum");
-  const auto count = std::uint32_t(target->colors.count());
+  const auto count = std::uint32_t(target->pixel_count);
+  if (!mean) mean.emplace(context, target->pixel_count);
   commands.dispatch(sum, {count},
                     FrameSumArgs{.words = pipelines.color_words(),
-                                 .colors = target->colors,
+                                 .colors = *mean,
                                  .pixel_count = count,
                                  .is_first = is_first ? 1u : 0u,
                                  .weight = weight});
 }
 
-void Antialiaser::State::refine(Commands& commands, const Frame& frame, const Lists& of,
-                                std::uint32_t count, bool has_unseen) {
-  const std::pair key{frame.options.depth, frame.environment.has_value()};
-  if (!refine_kernel || refine_key != key)
-    refine_kernel.emplace(context, shaders::sampling_refine_comp,
-                          refine_constants(buffers, key.first, key.second));
-  refine_key = key;
-  const vec4 b = frame.options.background;
-  commands.pass("refine");
-  commands.dispatch(*refine_kernel, {count},
-                    RefineArgs{.scene = of.scene_args,
-                               .items = of.items,
-                               .clip_positions = of.clip_positions,
-                               .begins = of.rasterizer.tile_begins(),
-                               .tile_triangles = of.rasterizer.tile_triangles(),
-                               .pixels = target->pixels,
-                               .colors = target->colors,
-                               .width = std::uint32_t(target->size.x),
-                               .height = std::uint32_t(target->size.y),
-                               .background = vec4(vec3(b) * b.w, b.w),
-                               .tiles_x = of.rasterizer.tiles_x(),
-                               .pixel_count = count,
-                               .has_unseen = has_unseen ? 1u : 0u,
-                               .padding = 0});
+void Antialiaser::State::find_needs(Commands& commands, float contrast, float gain) {
+  Target& t = *target;
+  const PixelNeedArgs args = t.need(pipelines.color_words(), contrast, gain);
+  const auto rows = std::uint32_t(t.rows);
+  commands.pass("need");
+  commands.fill(t.counts, 0);
+  commands.copy(pipelines.color_words(), t.averages, 0, 0, 2 * t.pixel_count);
+  commands.dispatch(display, {std::uint32_t(t.pixel_count)}, args);
+  commands.dispatch(need, {rows}, args);
+  t.prefix_sum.record(commands, t.counts, rows + 1);
+  commands.dispatch(list, {rows}, args);
 }
 
-Picture Antialiaser::State::finish(const Frame& frame, const SceneFrame& data) {
+/// The triangles of the frame, moved by half of a sixteenth: the places of the samples are whole
+/// sixteenths, whose mean is that much above and left of the middle.
+void Antialiaser::State::make_lists(const Frame& frame) {
+  const Frame moved = shifted(frame, dvec2(-1.0 / 32));
+  const SceneFrame data(context, buffers, blended, moved);
+  const std::vector<uvec2> items = triangle_items(moved, buffers, data);
+  if (!lists || !lists->fits(moved, items.size())) {
+    lists.reset();
+    lists.emplace(context, moved, items.size());
+  }
+  lists->items.write(items);
+  lists->scene_args.write(std::vector<SceneArgs>{data.args()});
+  do {
+    keep(context.run([&](Commands& commands) {
+      commands.pass("lists");
+      lists->record(commands, triangles, moved);
+    }));
+  } while (!lists->rasterizer.fit(context));
+}
+
+void Antialiaser::State::refine(const Frame& frame, std::uint32_t count, bool blends) {
+  const RefineKey key{frame.options.depth, blends, frame.environment.has_value()};
+  if (!refine_kernel || refine_key != key)
+    refine_kernel.emplace(context, shaders::sampling_refine_comp,
+                          refine_constants(buffers.features(), key));
+  refine_key = key;
+  const vec4 b = frame.options.background;
+  const RefineArgs args{.scene = lists->scene_args,
+                        .items = lists->items,
+                        .clip_positions = lists->clip_positions,
+                        .begins = lists->rasterizer.tile_begins(),
+                        .tile_triangles = lists->rasterizer.tile_triangles(),
+                        .pixels = target->pixels,
+                        .averages = target->averages,
+                        .width = std::uint32_t(target->size.x),
+                        .height = std::uint32_t(target->size.y),
+                        .background = vec4(vec3(b) * b.w, b.w),
+                        .tiles_x = lists->rasterizer.tiles_x(),
+                        .pixel_count = count};
+  keep(context.run([&](Commands& commands) {
+    commands.pass("refine");
+    commands.dispatch(*refine_kernel, {count}, args);
+  }));
+}
+
+Picture Antialiaser::State::finish(const Frame& frame, const SceneFrame& data,
+                                   std::vector<vec4> colors) {
   Picture picture;
   picture.color = Grid<vec4>(frame.options.width, frame.options.height);
-  picture.color.values() = target->colors.read();
+  picture.color.values() = std::move(colors);
   picture.triangle_count = data.triangle_count();
   picture.pass_seconds = passes;
   const std::uint64_t bytes = context.memory_bytes();
@@ -257,7 +317,7 @@ Picture Antialiaser::accumulate(const Frame& frame, std::span<const dvec2> shift
             .seconds;
   }
   s.passes = {{"frames", seconds}};
-  return s.finish(frame, *data);
+  return s.finish(frame, *data, s.mean->read());
 }
 
 Picture Antialiaser::adaptive(const Frame& frame, float contrast, float gain) {
@@ -268,45 +328,18 @@ Picture Antialiaser::adaptive(const Frame& frame, float contrast, float gain) {
   s.begin(frame);
   const SceneFrame data(s.context, s.buffers, s.blended, frame);
   s.pipelines.prepare(frame, data);
-  Target& t = *s.target;
-  const PixelNeedArgs need = t.need(contrast, gain);
-  const auto places = std::uint32_t(t.places);
-  Timing timing = s.context.run([&](Commands& commands) {
-    s.add(commands, frame, data, true, 1);
-    commands.pass("need");
-    commands.fill(t.flags, 0);
-    commands.dispatch(s.need, {places}, need);
-    t.prefix_sum.record(commands, t.flags, places + 1);
-    commands.dispatch(s.list, {places}, need);
-  });
-  s.passes = timing.passes;
-  const std::uint32_t count = t.flags.read(t.places, 1)[0];
-  s.refined = double(count) / double(t.colors.count());
-  if (count == 0) return s.finish(frame, data);
-  // The places of the samples are whole sixteenths; their mean is half of one above and left of the
-  // middle.
-  const Frame moved = shifted(frame, dvec2(-1.0 / 32));
-  const SceneFrame moved_data(s.context, s.buffers, s.blended, moved);
-  const std::vector<uvec2> items = triangle_items(moved, s.buffers, moved_data);
-  if (!s.lists || !s.lists->fits(moved, items.size())) {
-    s.lists.reset();
-    s.lists.emplace(s.context, moved, items.size());
+  s.keep(s.context.run([&](Commands& commands) {
+    s.pipelines.record(commands, frame, data);
+    s.find_needs(commands, contrast, gain);
+  }));
+  const Target& t = *s.target;
+  const std::uint32_t count = t.counts.read(t.rows, 1)[0];
+  s.refined = double(count) / double(t.pixel_count);
+  if (count > 0) {
+    s.make_lists(frame);
+    s.refine(frame, count, !data.order().empty());
   }
-  Lists& lists = *s.lists;
-  lists.items.write(items);
-  lists.scene_args.write(std::vector<SceneArgs>{moved_data.args()});
-  do {
-    timing = s.context.run([&](Commands& commands) {
-      commands.pass("lists");
-      lists.record(commands, s.triangles, moved);
-    });
-  } while (!lists.rasterizer.fit(s.context));
-  s.passes.insert(s.passes.end(), timing.passes.begin(), timing.passes.end());
-  const bool has_unseen = !data.order().empty() || s.buffers.features().cuts_out;
-  timing = s.context.run(
-      [&](Commands& commands) { s.refine(commands, moved, lists, count, has_unseen); });
-  s.passes.insert(s.passes.end(), timing.passes.begin(), timing.passes.end());
-  return s.finish(frame, data);
+  return s.finish(frame, data, vec4_from_halves(t.averages.read()));
 }
 
 double Antialiaser::refined() const { return state_->refined; }

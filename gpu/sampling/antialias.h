@@ -29,7 +29,8 @@ class Antialiaser {
   Picture accumulate(const Frame& frame, std::span<const dvec2> shifts);
 
   /// One sample a pixel; where it differs on the screen from a pixel around it, 16: of these each
-  /// four in a quarter of the pixel that show one triangle share a shade.
+  /// four that show one triangle share a shade. The others' means follow from the middles around
+  /// them.
   ///
   /// @param frame     1 sample a pixel.
   /// @param contrast  of gamma-2 display values of any channel, 0 to 1; pixels with more are

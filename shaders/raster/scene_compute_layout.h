@@ -50,14 +50,12 @@ struct RefineArgs {
   REF(uint) begins;
   REF(TileTriangle) tile_triangles;
   REF(uint) pixels;  // y width + x
-  REF(vec4) colors;
+  REF(uint) averages;  // RGBA16F of the picture
   uint width;
   uint height;
   vec4 background;  // premultiplied
   uint tiles_x;
   uint pixel_count;
-  uint has_unseen;  // some item is masked or blended
-  uint padding;
 };
 
 #ifdef __cplusplus

@@ -85,16 +85,19 @@ struct FrameSumArgs {
   float weight;
 };
 
-/// Which pixels need more samples. Flags and pixels are in the order of tiles of 8x8 pixels, row by
-/// row within; those outside of the picture never need any.
+/// Which pixels need more samples. Rows of 8 pixels are in the order of tiles of 8x8 pixels; pixels
+/// outside of the picture never need any.
 struct PixelNeedArgs {
-  REF(vec4) colors;
-  REF(uint) flags;  ///< 1: needs more; scanned: how many do before it
-  REF(uint) pixels;  ///< y width + x of those that do
+  REF(uint) words;     ///< RGBA16F of the frame
+  REF(uint) codes;     ///< one a pixel: what a screen shows, 10 bits a channel
+  REF(uint) averages;  ///< RGBA16F: means over pixels that need no more
+  REF(uint) masks;     ///< one a row: bit x is set where pixel x needs more
+  REF(uint) counts;    ///< of a row's pixels that do; scanned: of all rows before
+  REF(uint) pixels;    ///< y width + x of those that do
   uint width;
   uint height;
   uint tiles_x;
-  uint place_count;  ///< 64 a tile
+  uint row_count;    ///< 8 a tile
   float gain;        ///< of the display, linear
   float contrast;
 };

@@ -1,16 +1,17 @@
 #version 460
 #include "sampling/layout.h"
 
-// Lists the flagged pixels, from how many are before each; one thread a pixel. Source: Blelloch 1990.
+// Lists the pixels that need more, from how many do in the rows before; one thread a row of a tile.
+// Source: Blelloch 1990.
 layout(local_size_x = 64) in;
 layout(scalar, push_constant) uniform Push { PixelNeedArgs args; };
 
 void main() {
-  const uint i = gl_GlobalInvocationID.x;
-  if (i >= args.place_count) return;
-  const uint before = args.flags.at[i];
-  if (args.flags.at[i + 1u] == before) return;
-  const uvec2 tile = uvec2((i / 64u) % args.tiles_x, (i / 64u) / args.tiles_x);
-  const uvec2 pixel = tile * 8u + uvec2(i % 8u, (i / 8u) % 8u);
-  args.pixels.at[before] = pixel.y * args.width + pixel.x;
+  const uint row = gl_GlobalInvocationID.x;
+  if (row >= args.row_count) return;
+  const uvec2 tile = uvec2((row / 8u) % args.tiles_x, (row / 8u) / args.tiles_x);
+  const uint first = (tile.y * 8u + row % 8u) * args.width + tile.x * 8u;
+  uint at = args.counts.at[row];
+  for (uint mask = args.masks.at[row]; mask != 0u; mask &= mask - 1u)
+    args.pixels.at[at++] = first + uint(findLSB(mask));
 }

@@ -4,26 +4,33 @@
 #include "raster/scene_interpolate.glsl"
 #include "raster/tile.glsl"
 
-// Draws listed pixels anew with 16 samples, four at a time; one thread a pixel. A quarter's samples
-// that show one triangle share a shade, taken at the first of them. The triangles come from the
-// list of the pixel's tile.
+// Draws listed pixels anew with 16 samples; one thread a pixel. Each four samples that show one
+// triangle, in the order of the quarters of the pixel, share a shade, taken in their middle. The
+// triangles come from the list of the pixel's tile.
 // Source: notes 1.7, 1.8.
 layout(local_size_x = 64) in;
 layout(constant_id = 11) const uint depth_mode = 1u;  // parity::DepthMode
 layout(scalar, push_constant) uniform Push { RefineArgs args; };
 
 const uint reverse_z = 1u, logarithmic = 2u;
-const uint quarter = 4u;
+const uint samples = 16u;
+const bool has_unseen = cuts_out || blends;  // some item is masked or blended
 
-// Sample s of a group, in 1/16 pixel from the middle of the pixel: of the 4x4 samples that have 16
-// columns and 16 rows (Chiu, Shirley & Wang 1994) those in one quarter of the pixel. The frame is
-// moved by half of that unit, which these places lack. The first samples of the groups, where
-// shades are taken, have the mean and the variance of the pixel.
-ivec2 refined_place(uint group, uint s) {
-  const uint first[4] = {1u, 3u, 0u, 2u};
-  const uint place = s ^ first[group];
-  const ivec2 cell = 2 * ivec2(group & 1u, group >> 1u) + ivec2(place & 1u, place >> 1u);
+// Sample s, in 1/16 pixel from the middle of the pixel: four in each quarter, all in columns and
+// rows of their own (Chiu, Shirley & Wang 1994). The frame is moved by half of that unit, which
+// these places lack.
+ivec2 refined_place(uint s) {
+  const uint quarter = s >> 2u, place = s & 3u;
+  const ivec2 cell = 2 * ivec2(quarter & 1u, quarter >> 1u) + ivec2(place & 1u, place >> 1u);
   return 4 * cell + cell.yx - 8;
+}
+
+// The middle of some samples: inside of a triangle that covers them all.
+vec2 middle_of(uint mask) {
+  ivec2 sum = ivec2(0);
+  [[unroll]] for (uint s = 0u; s < samples; ++s)
+    if ((mask & (1u << s)) != 0u) sum += refined_place(s);
+  return vec2(sum) / (16.0 * float(bitCount(mask)));
 }
 
 float stored_depth(SceneArgs scene, float plane) {
@@ -33,29 +40,49 @@ float stored_depth(SceneArgs scene, float plane) {
   return clamp(depth, 0.0, 1.0);
 }
 
-struct Quarter {
-  vec4 color[quarter];
-  float depth[quarter];
-  uint element[quarter];  // 1 + item
+struct Samples {
+  vec4 color[samples];  // where has_unseen
+  float depth[samples];
+  uint element[samples];  // 1 + item
 };
 
 // Of equal depths the first in the scene wins.
-bool is_in_front(Quarter q, uint s, float depth, uint element) {
-  if (depth == q.depth[s]) return element < q.element[s];
-  return depth_mode == reverse_z ? depth > q.depth[s] : depth < q.depth[s];
+bool is_in_front(Samples at, uint s, float depth, uint element) {
+  if (depth == at.depth[s]) return element < at.element[s];
+  return depth_mode == reverse_z ? depth > at.depth[s] : depth < at.depth[s];
 }
 
-// Samples at which a piece is in front, and its depths there.
-uint samples_behind(Quarter q, SceneArgs scene, TileTriangle t, ivec2 steps[quarter],
-                    out float depth[quarter]) {
+// May a piece cover a place within half a pixel of a pixel's middle?
+bool may_cover(TileTriangle t, ivec2 middle) {
+  const ivec3 e = tile_edges(t, middle) + 8 * (abs(t.edge_x) + abs(t.edge_y));
+  return (e.x | e.y | e.z) >= 0;
+}
+
+// Samples at which a piece is in front.
+uint samples_behind(Samples at, SceneArgs scene, TileTriangle t, ivec2 middle) {
   uint mask = 0u;
-  [[unroll]] for (uint s = 0u; s < quarter; ++s) {
-    depth[s] = stored_depth(scene, tile_depth(t, steps[s]));
-    const bool seen =
-        tile_covers(t, steps[s]) && is_in_front(q, s, depth[s], t.element & ~element_unseen);
+  [[unroll]] for (uint s = 0u; s < samples; ++s) {
+    const ivec2 place = middle + refined_place(s);
+    const float depth = stored_depth(scene, tile_depth(t, place));
+    const bool seen = tile_covers(t, place) && is_in_front(at, s, depth, t.element & ~element_unseen);
     mask |= seen ? 1u << s : 0u;
   }
   return mask;
+}
+
+void put_in_front(inout Samples at, SceneArgs scene, TileTriangle t, ivec2 middle, uint mask) {
+  [[unroll]] for (uint s = 0u; s < samples; ++s) {
+    if ((mask & (1u << s)) == 0u) continue;
+    at.depth[s] = stored_depth(scene, tile_depth(t, middle + refined_place(s)));
+    at.element[s] = t.element & ~element_unseen;
+  }
+}
+
+// The first four of a mask's samples.
+uint first_four(uint mask) {
+  uint rest = mask;
+  [[unroll]] for (uint i = 0u; i < 4u; ++i) rest &= rest - 1u;
+  return mask & ~rest;
 }
 
 vec4 shade_item(SceneArgs scene, uint item, vec2 place) {
@@ -72,56 +99,65 @@ bool is_blended(SceneArgs scene, uint item) {
   return (scene.materials.at[material].flags & material_flag_blend) != 0u;
 }
 
-vec4 quarter_color(SceneArgs scene, uvec2 pixel, uint group, uint begin, uint end) {
-  Quarter q;
-  ivec2 steps[quarter];
-  [[unroll]] for (uint s = 0u; s < quarter; ++s) {
-    q.color[s] = args.background;
-    q.depth[s] = depth_mode == reverse_z ? 0.0 : 1.0;
-    q.element[s] = 0u;
-    steps[s] = tile_step(pixel % tile_side, refined_place(group, s));
-  }
-  float depth[quarter];
+// All triangles that hide what is behind them.
+void see_opaque(inout Samples at, SceneArgs scene, ivec2 middle, uint begin, uint end) {
   for (uint i = begin; i < end; ++i) {
     const TileTriangle t = args.tile_triangles.at[i];
-    if ((t.element & element_unseen) != 0u) continue;
-    const uint seen = samples_behind(q, scene, t, steps, depth);
-    [[unroll]] for (uint s = 0u; s < quarter; ++s) {
-      if ((seen & (1u << s)) == 0u) continue;
-      q.depth[s] = depth[s];
-      q.element[s] = t.element;
-    }
+    if ((t.element & element_unseen) != 0u || !may_cover(t, middle)) continue;
+    const uint seen = samples_behind(at, scene, t, middle);
+    if (seen != 0u) put_in_front(at, scene, t, middle, seen);
   }
-  uint pending = 0u;  // opaque and not shaded yet
-  [[unroll]] for (uint s = 0u; s < quarter; ++s) pending |= q.element[s] != 0u ? 1u << s : 0u;
-  uint cursor = args.has_unseen != 0u ? begin : end;
+}
+
+uint samples_of(Samples at, uint element) {
+  uint mask = 0u;
+  [[unroll]] for (uint s = 0u; s < samples; ++s) mask |= at.element[s] == element ? 1u << s : 0u;
+  return mask;
+}
+
+// First what is opaque, then, in the order of the tile's list, what masks cut and what is blended.
+vec4 pixel_color(SceneArgs scene, uvec2 pixel, uint begin, uint end) {
+  const ivec2 middle = tile_step(pixel % tile_side, ivec2(0));
+  Samples at;
+  [[unroll]] for (uint s = 0u; s < samples; ++s) {
+    at.color[s] = args.background;
+    at.depth[s] = depth_mode == reverse_z ? 0.0 : 1.0;
+    at.element[s] = 0u;
+  }
+  see_opaque(at, scene, middle, begin, end);
+  const uint uncovered = samples_of(at, 0u);
+  vec4 sum = float(bitCount(uncovered)) * args.background;
+  uint pending = ((1u << samples) - 1u) & ~uncovered;
+  bool opaque = true;
+  TileTriangle t;
+  uint cursor = has_unseen ? begin : end;
   [[dont_unroll]] while (pending != 0u || cursor < end) {
-    const bool opaque = pending != 0u;
-    uint element, seen = 0u;
-    if (opaque) {
-      element = q.element[findLSB(pending)];
-      [[unroll]] for (uint s = 0u; s < quarter; ++s) seen |= q.element[s] == element ? 1u << s : 0u;
-      pending &= ~seen;
-    } else {
-      const TileTriangle t = args.tile_triangles.at[cursor++];
-      element = t.element & ~element_unseen;
-      seen = t.element == element ? 0u : samples_behind(q, scene, t, steps, depth);
+    if (has_unseen && pending == 0u) {
+      opaque = false;
+      t = args.tile_triangles.at[cursor++];
+      if ((t.element & element_unseen) == 0u || !may_cover(t, middle)) continue;
+      pending = samples_behind(at, scene, t, middle);
+      if (pending == 0u) continue;
     }
-    if (seen == 0u) continue;
-    const vec2 place = vec2(pixel) + 0.5 + vec2(refined_place(group, uint(findLSB(seen)))) / 16.0;
-    const vec4 result = shade_item(scene, element - 1u, place);
-    if (result.a < 0.0) continue;
+    const uint element = opaque ? at.element[findLSB(pending)] : t.element & ~element_unseen;
+    const uint seen = first_four(opaque ? pending & samples_of(at, element) : pending);
+    pending &= ~seen;
+    const vec4 result = shade_item(scene, element - 1u, vec2(pixel) + 0.5 + middle_of(seen));
+    sum += float(bitCount(seen)) * result;
+    if (!has_unseen || result.a < 0.0) continue;
     const bool blended = !opaque && is_blended(scene, element - 1u);
-    [[unroll]] for (uint s = 0u; s < quarter; ++s) {
+    [[unroll]] for (uint s = 0u; s < samples; ++s) {
       if ((seen & (1u << s)) == 0u) continue;
-      q.color[s] = blended ? vec4(result.rgb * result.a, result.a) + q.color[s] * (1.0 - result.a)
-                           : result;
-      if (opaque || blended) continue;
-      q.depth[s] = depth[s];
-      q.element[s] = element;
+      at.color[s] = blended ? vec4(result.rgb * result.a, result.a) + at.color[s] * (1.0 - result.a)
+                            : result;
     }
+    if (!opaque && !blended) put_in_front(at, scene, t, middle, seen);
   }
-  return 0.25 * ((q.color[0] + q.color[1]) + (q.color[2] + q.color[3]));
+  if (has_unseen) {
+    sum = vec4(0.0);
+    [[unroll]] for (uint s = 0u; s < samples; ++s) sum += at.color[s];
+  }
+  return sum / float(samples);
 }
 
 void main() {
@@ -131,9 +167,7 @@ void main() {
   const uint at = args.pixels.at[i];
   const uvec2 pixel = uvec2(at % args.width, at / args.width);
   const uint tile = (pixel.y / tile_side) * args.tiles_x + pixel.x / tile_side;
-  const uint begin = args.begins.at[tile], end = args.begins.at[tile + 1u];
-  vec4 sum = vec4(0.0);
-  [[dont_unroll]] for (uint group = 0u; group < 4u; ++group)
-    sum += 0.25 * quarter_color(scene, pixel, group, begin, end);
-  args.colors.at[at] = sum;
+  const vec4 color = pixel_color(scene, pixel, args.begins.at[tile], args.begins.at[tile + 1u]);
+  args.averages.at[2u * at] = packHalf2x16(color.rg);
+  args.averages.at[2u * at + 1u] = packHalf2x16(color.ba);
 }
