@@ -233,7 +233,9 @@ Simulation start_sph_on_host(const SimScene& scene) {
     return std::uint64_t(1);
   };
   const auto densities = [problem] {
-    const std::vector<double> exact = cpu::sph_densities(*problem, cpu::sph_neighbours(*problem));
+    const SphNeighbourLists lists = cpu::sph_neighbours(
+        problem->initial.positions, problem->boundary, float(problem->parameters.support));
+    const std::vector<double> exact = cpu::sph_densities(*problem, lists);
     return std::vector<float>(exact.begin(), exact.end());
   };
   s.measures = [problem, parameters, densities] {

@@ -71,7 +71,7 @@ std::vector<dvec3> kicked(SphProblem& now, const SphNeighbourLists& lists,
 }  // namespace
 
 SphState sph_step(const SphProblem& problem, double step, int count) {
-  check_sph_problem(problem);
+  check_sph_parameters(problem.parameters);
   SphProblem now = problem;
   std::vector<dvec3> positions(problem.initial.positions.begin(), problem.initial.positions.end());
   std::vector<dvec3> velocities(problem.initial.velocities.begin(),

@@ -8,9 +8,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Cells along x to a support.
-constexpr double x_cells = 4;
-
 /// The kernel's profile, 1 at q = 0 and 0 at q = 1.
 double profile(SphKernel kernel, double q) {
   const double t = 1 - q;
@@ -84,16 +81,16 @@ SphGrid grid_of(const SphProblem& problem) {
   const bool solid = p.dimensions == 3;
   SphGrid grid;
   const dvec3 margin{p.support, p.support, solid ? p.support : 0};
-  const dvec3 sides = (problem.domain.high - problem.domain.low + 2.0 * margin) / p.support;
+  const dvec3 sides = problem.domain.high - problem.domain.low + 2.0 * margin;
   grid.low = vec3(problem.domain.low - margin);
-  grid.inverse_cell = vec3(dvec3(x_cells, 1, 1) / p.support);
-  grid.cells = uvec3(glm::ceil(sides * dvec3(x_cells, 1, 1)));
+  grid.inverse_cell = vec3(float(2 / p.support));
+  grid.cells = uvec3(glm::ceil(sides * 2.0 / p.support));
   grid.support = float(p.support);
   if (!solid) {
     grid.low.z = 0;
     grid.cells.z = 1;
   }
-  grid.reach_z = solid ? 1 : 0;
+  grid.reach_z = solid ? 2 : 0;
   return grid;
 }
 

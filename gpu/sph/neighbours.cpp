@@ -16,6 +16,26 @@ std::uint32_t cell_count(const SphConstants& constants) {
   return cells.x * cells.y * cells.z;
 }
 
+/// A bit for each cell from which a point may be within the support: two cells, and one against
+/// rounding.
+std::vector<std::uint32_t> cells_near(const SphGrid& grid, const std::vector<vec3>& points) {
+  const uvec3 n = grid.cells;
+  const ivec3 last = ivec3(n) - 1;
+  std::vector<std::uint32_t> bits((std::size_t(n.x) * n.y * n.z + 31) / 32);
+  for (const vec3& point : points) {
+    const vec3 at = glm::clamp((point - grid.low) * grid.inverse_cell, vec3(0), vec3(last));
+    const ivec3 low = glm::max(ivec3(at) - 3, ivec3(0));
+    const ivec3 high = glm::min(ivec3(at) + 3, last);
+    for (int z = low.z; z <= high.z; ++z)
+      for (int y = low.y; y <= high.y; ++y)
+        for (int x = low.x; x <= high.x; ++x) {
+          const std::size_t cell = (std::size_t(z) * n.y + std::size_t(y)) * n.x + std::size_t(x);
+          bits[cell / 32] |= 1u << cell % 32;
+        }
+  }
+  return bits;
+}
+
 /// Of a particle's list: blocks of 64 particles.
 std::size_t list_first(const SphConstants& constants, std::uint32_t i) {
   return std::size_t(i / 64 * 64) * constants.capacity + i % 64;
@@ -35,6 +55,7 @@ std::vector<vec4> with_zero(const std::vector<vec3>& points) {
 CellSort::CellSort(Context& context, const SphConstants& constants, std::uint32_t count)
     : count_(count),
       cell_count_(cell_count(constants)),
+      row_(constants.grid.cells.x),
       key_bits_(std::uint32_t(std::bit_width(cell_count_))),
       cell_key_(context, shaders::sph_cell_key_comp),
       cell_start_(context, shaders::sph_cell_start_comp),
@@ -57,8 +78,15 @@ void CellSort::record(Commands& commands, BufferRef<SphConstants> constants,
                        .count = count_});
     sort_.record(commands, count_buffer_, keys_, ids_, key_bits_);
   }
-  commands.dispatch(cell_start_, {cell_count_ + 1},
-                    {.keys = keys_, .starts = starts_, .count = count_, .cell_count = cell_count_});
+  CellStartArgs args{.keys = keys_,
+                     .starts = starts_,
+                     .count = count_,
+                     .cell_count = cell_count_,
+                     .row = row_,
+                     .first_only = 1};
+  commands.dispatch(cell_start_, {cell_count_ / row_ + 1}, args);
+  args.first_only = 0;
+  commands.dispatch(cell_start_, {cell_count_}, args);
   record_gather(commands, positions, sorted_);
 }
 
@@ -78,7 +106,8 @@ Neighbours::Neighbours(Context& context, const SphProblem& problem, const SphCon
       boundary_motions_(context, constants.boundary_count),
       lists_(context, list_first(constants, (constants.count + 63) / 64 * 64)),
       counts_(context, constants.count),
-      densities_(context, constants.count) {
+      densities_(context, constants.count),
+      near_walls_(context, cells_near(constants.grid, problem.boundary)) {
   weigh_boundary(context, problem);
 }
 
@@ -115,6 +144,7 @@ void Neighbours::record(Commands& commands, BufferRef<vec4> positions) {
                      .starts = cells_.starts(),
                      .boundary = boundary_,
                      .boundary_starts = boundary_cells_.starts(),
+                     .near_walls = near_walls_,
                      .lists = lists_,
                      .counts = counts_,
                      .densities = densities_,

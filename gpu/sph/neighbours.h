@@ -30,6 +30,7 @@ class CellSort {
  private:
   std::uint32_t count_;
   std::uint32_t cell_count_;
+  std::uint32_t row_;  ///< cells
   std::uint32_t key_bits_;
   Kernel<CellKeyArgs> cell_key_;
   Kernel<CellStartArgs> cell_start_;
@@ -78,6 +79,7 @@ class Neighbours {
   Buffer<std::uint32_t> lists_;
   Buffer<uvec2> counts_;
   Buffer<float> densities_;
+  Buffer<std::uint32_t> near_walls_;  ///< a bit a cell
 };
 
 /// Mathematics: cpu::sph_neighbours; the decision, r^2 < H^2 in float, is the same.

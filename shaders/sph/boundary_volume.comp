@@ -17,7 +17,7 @@ void main() {
   const int reach_z = int(c.grid.reach_z);
   precise float sum = 0.0;
   for (int dz = -reach_z; dz <= reach_z; ++dz) {
-    for (int dy = -1; dy <= 1; ++dy) {
+    for (int dy = -row_reach; dy <= row_reach; ++dy) {
       const uvec2 range = row_range(c.grid, args.starts, p, cell, dy, dz);
       for (uint j = range.x; j < range.y; ++j) {
         precise const vec3 d = p - args.boundary.at[j].xyz;

@@ -1,17 +1,19 @@
 #version 460
 #include "sph/layout.h"
 
-// Where the particles of a cell begin: the number of smaller keys, by bisection of the sorted keys;
-// one thread a cell, and one for the end. Source: Green 2010, but with no writes from several
-// threads.
+// Where the particles of a cell begin: the number of smaller keys, by bisection of the sorted keys,
+// first for rows, then inside them; one thread a row, and one for the end, then one a cell. Source:
+// Green 2010, but with no writes from several threads.
 layout(local_size_x = 64) in;
 layout(scalar, push_constant) uniform Push { CellStartArgs args; };
 
 void main() {
-  const uint cell = gl_GlobalInvocationID.x;
-  if (cell > args.cell_count) return;
-  uint low = 0u;
-  uint high = args.count;
+  const bool first_only = args.first_only != 0u;
+  const uint cell = gl_GlobalInvocationID.x * (first_only ? args.row : 1u);
+  if (cell > args.cell_count || (!first_only && cell % args.row == 0u)) return;
+  const uint row = cell - cell % args.row;
+  uint low = first_only ? 0u : args.starts.at[row];
+  uint high = first_only ? args.count : args.starts.at[row + args.row];
   for (int round = 0; round < 32 && low < high; ++round) {
     const uint middle = (low + high) / 2u;
     if (args.keys.at[middle] < cell) {

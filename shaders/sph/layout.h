@@ -8,13 +8,13 @@
 namespace parity {
 #endif
 
-/// A grid of cells, x fastest: as wide as the support along y and z, a quarter of it along x.
+/// A grid of cells, x fastest, half a support wide.
 struct SphGrid {
   vec3 low;
   vec3 inverse_cell;  ///< 1/m
   uvec3 cells;
   float support;
-  uint reach_z;  ///< rows to look at on either side along z: 0 in 2 dimensions
+  uint reach_z;  ///< rows to look at on either side along z: 2, or 0 in 2 dimensions
 };
 REF_TYPE(SphGrid, 4)
 
@@ -85,6 +85,8 @@ struct CellStartArgs {
   REF(uint) starts;  ///< of each cell the number of smaller keys; one more than cells
   uint count;
   uint cell_count;
+  uint row;         ///< cells in a row
+  uint first_only;  ///< 1: of the first cell of each row; 0: of the others, between those
 };
 
 struct GatherArgs {
@@ -103,6 +105,7 @@ struct NeighbourArgs {
   REF(uint) starts;
   REF(vec4) boundary;  ///< sorted
   REF(uint) boundary_starts;
+  REF(uint) near_walls;  ///< a bit a cell: may a wall particle be within the support?
   REF(uint) lists;
   REF(uvec2) counts;     ///< of fluid neighbours; of all that there are, even those not in the list
   REF(float) densities;  ///< sorted

@@ -27,7 +27,7 @@ void main() {
   precise float sum = 0.0;
   precise float walls = 0.0;
   for (int dz = -reach_z; dz <= reach_z; ++dz) {
-    for (int dy = -1; dy <= 1; ++dy) {
+    for (int dy = -row_reach; dy <= row_reach; ++dy) {
       const uvec2 range = row_range(grid, args.starts, p, cell, dy, dz);
       for (uint j = range.x; j < range.y; ++j) {
         precise const vec3 d = p - args.positions.at[j].xyz;
@@ -41,9 +41,10 @@ void main() {
     }
   }
   const uint fluid = min(found, capacity);
-  if (args.constants.at[0].boundary_count > 0u) {
+  const uint at = cell_index(grid, cell);
+  if ((args.near_walls.at[at / 32u] >> (at % 32u) & 1u) != 0u) {
     for (int dz = -reach_z; dz <= reach_z; ++dz) {
-      for (int dy = -1; dy <= 1; ++dy) {
+      for (int dy = -row_reach; dy <= row_reach; ++dy) {
         const uvec2 range = row_range(grid, args.boundary_starts, p, cell, dy, dz);
         for (uint j = range.x; j < range.y; ++j) {
           const vec4 wall = args.boundary.at[j];
