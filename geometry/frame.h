@@ -7,6 +7,7 @@
 
 #include "geometry/environment.h"
 #include "geometry/scene.h"
+#include "geometry/shadow.h"
 
 namespace parity {
 
@@ -57,7 +58,11 @@ struct Frame {
   vec3 ambient{0.0f};  ///< radiance of the uniform environment, linear RGB, W/(m^2 sr)
   /// Stands in for the uniform one. Both renderers shade with these same numbers.
   std::optional<EnvironmentLight> environment;
+  /// What hides lights, at most most_shadows of them; cast_shadows makes them.
+  std::vector<LightShadow> shadows;
 };
+
+constexpr std::size_t most_shadows = 8;
 
 /// Places everything. Without a camera: framing_camera. Without a
 /// light (and no emission or unlit material to see by): a key light and a uniform environment.

@@ -18,6 +18,32 @@ struct ShadowProblem {
   float bias = 0;                         ///< depth
 };
 
+/// One map of a light.
+struct ShadowCascade {
+  dmat4 shadow_from_world{1.0};  ///< x, y of the map 0 to 1 and z depth, all times w
+  double end = 0;                ///< distance along the view that it reaches to, m
+  double texel = 0;              ///< side of a texel where w is 1, m
+  Grid<float> depths;            ///< square; 1: nothing is there
+};
+
+/// What hides a light of a frame: shadow maps, the nearest to the viewer first.
+struct LightShadow {
+  int light = 0;  ///< of Frame::lights
+  dvec3 forward{0.0, 0.0, -1.0};
+  double offset = 0;  ///< the distance along the view of p is dot(forward, p) + offset
+  std::vector<ShadowCascade> cascades;  ///< 1 to 4, sides of the maps all alike
+  int radius = 1;                       ///< texels; the filter is 2 radius + 1 wide
+  float bias = 0;                       ///< depth
+
+  /// How far a receiver is moved along its normal n where w is 1, over the sine of the angle
+  /// between n and the axis of the map. A plane's depth within reach of the filter, r + 1 texels t
+  /// on both axes, is less by (|n_x| + |n_y|) (r + 1) t w / |cos| at most, where cos is that of n
+  /// and the ray; a receiver at a height h over it is nearer by h / |cos|.
+  double lift(std::size_t cascade) const {
+    return 1.4142135623730951 * (radius + 1) * cascades[cascade].texel;
+  }
+};
+
 /// Distances at which `count` cascades end: between equal steps (0) and equal ratios (1).
 ///
 /// Source: Zhang et al. 2006, "Parallel-Split Shadow Maps".

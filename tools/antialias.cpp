@@ -45,6 +45,7 @@ std::vector<dvec2> shifts_of(int frames) {
 Frame remade(const Scene& scene, const Frame& frame, const FrameOptions& options) {
   Frame result = make_frame(scene, options);
   result.environment = frame.environment;
+  result.shadows = frame.shadows;
   return result;
 }
 

@@ -14,6 +14,7 @@
 #include "cpu_reference/shading/prefilter.h"
 #include "cpu_reference/shading/tone_map.h"
 #include "geometry/atomic_file.h"
+#include "geometry/cast_shadows.h"
 #include "geometry/color.h"
 #include "geometry/environment.h"
 #include "geometry/frame.h"
@@ -43,6 +44,7 @@ struct RenderArguments {
   std::string metrics;
   std::string environment;
   std::string tone_map = "neutral";
+  std::string shadows = "on";
   double exposure = 0;
   int msaa = 4;
   std::string aa;
@@ -223,6 +225,7 @@ struct Task {
   std::optional<EnvironmentMap> environment;
   bool display = false;  ///< 8-bit output
 
+  bool casts_shadows() const { return arguments.shadows == "on"; }
   bool shows_environment() const { return environment && arguments.background.empty(); }
   void finish(Picture& picture) const {
     if (shows_environment()) show_environment(*environment, frame, picture);
@@ -237,6 +240,10 @@ Job render_on_cpu(Task& task) {
   const double start = seconds_now();
   if (task.environment)
     task.frame.environment = cpu::prefilter(*task.environment, environment_samples);
+  if (task.casts_shadows())
+    task.frame.shadows = cast_shadows(task.scene, task.frame, {}, [&](const Frame& map) {
+      return cpu::render(task.scene, map, {.colors = false}).picture.depth;
+    });
   if (const auto mode = antialiasing(a))
     take(job, render_antialiased(task.scene, task.frame, *mode));
   else
@@ -266,10 +273,14 @@ Job render_on_gpu(Task& task) {
   const double start = seconds_now();
   if (task.environment)
     task.frame.environment = gpu::prefilter(context, *task.environment, environment_samples);
+  gpu::Renderer renderer(context, task.scene);
+  if (task.casts_shadows())
+    task.frame.shadows = cast_shadows(task.scene, task.frame, {},
+                                      [&](const Frame& map) { return renderer.render(map).depth; });
   if (const auto mode = antialiasing(a))
     take(job, render_antialiased(context, task.scene, task.frame, *mode, a.exposure));
   else
-    job.picture = gpu::render(context, task.scene, task.frame);
+    job.picture = renderer.render(task.frame);
   if (job.meets) task.finish(job.picture);
   job.seconds = seconds_now() - start;
   if (task.display && job.meets)
@@ -445,6 +456,10 @@ void add_render_verb(CLI::App& app, int& exit_code) {
       "--environment", a->environment,
       "A picture of the light from all around (equirectangular .hdr or .exr), or its radiance, "
       "linear: l or r,g,b (default: 0 if the scene has lights)");
+  verb->add_option("--shadows", a->shadows,
+                   "Shadows of directional and spot lights, by shadow maps")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->capture_default_str();
   verb->add_option("--depth", a->depth, "Depth buffer")
       ->check(CLI::IsMember({"reverse", "standard", "logarithmic"}))
       ->capture_default_str();

@@ -169,8 +169,8 @@ struct Unsorted {
 void append(Elements& elements, Unsorted& blended, std::uint32_t draw,
             const std::vector<SnappedTriangle>& pieces, const Frame& frame) {
   const PlacedDraw& placed = elements.draws[draw];
-  const bool blends = placed.primitive->topology == Topology::triangles &&
-                      is_blended(*placed.material);
+  const bool blends =
+      placed.primitive->topology == Topology::triangles && is_blended(*placed.material);
   for (SnappedTriangle shape : pieces) {
     if (blends) blended.keys.push_back(painter_key(placed, shape.triangle, frame));
     shape.triangle += placed.first_element;

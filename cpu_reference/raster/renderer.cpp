@@ -105,7 +105,7 @@ void draw_band(const RenderJob& job, int band, const BandWork& work, Rendered& r
   Band rows(job, box);
   for (const std::uint32_t piece : work.opaque[b]) rows.draw_opaque(job.elements.opaque[piece]);
   for (const ElementName& name : work.opaque_doubt[b]) rows.doubt_border(name, false);
-  rows.shade();
+  if (job.options.colors) rows.shade();
   for (const std::uint32_t piece : work.blended[b]) rows.draw_blended(job.elements.blended[piece]);
   for (const ElementName& name : work.blended_doubt[b]) rows.doubt_border(name, true);
   rows.store(rendered);

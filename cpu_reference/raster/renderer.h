@@ -13,6 +13,7 @@ namespace parity::cpu {
 struct RenderOptions {
   Snapping snapping = Snapping::mesa;  ///< of the device to compare with
   bool elements = false;               ///< fill Picture::element
+  bool colors = true;                  ///< else only depths are right, of what is not blended
   bool bounds = false;                 ///< also say how far a right device may be
   DeviceLimits device;                 ///< what the bounds grant it
 };

@@ -9,6 +9,7 @@
 #include "cpu_reference/raster/elements.h"
 #include "cpu_reference/raster/planes.h"
 #include "cpu_reference/shading/metallic_roughness.h"
+#include "cpu_reference/shading/shadow_map.h"
 #include "cpu_reference/texture/anisotropic.h"
 
 namespace parity::cpu {
@@ -92,6 +93,10 @@ TexturePlace texture_place(const ElementSurface& s, std::size_t slot, const Quad
 
 /// Varyings and textures at the centre of a pixel.
 ShadingPoint<double> shading_point(const ElementSurface& s, int x, int y, bool back);
+
+/// What a shadow map is asked there, without errors.
+ShadowQuery shadow_query(const ShadingPoint<double>& point, const ShadingScene& scene,
+                         const LightShadow& shadow);
 
 /// What a surface gives at a pixel: shade for triangles, base colour times vertex colour for lines
 /// and points.

@@ -245,6 +245,7 @@ BoundedLookup lookup(const ElementSurface& surface, std::size_t slot, const Text
 struct BoundedPoint {
   ShadingPoint<double> point;
   Inputs error{};
+  std::array<Interval, most_shadows> visible;
   bool in_doubt = false;
 };
 
@@ -264,6 +265,27 @@ BoundedPoint bounded_point(const PlacedDraw& placed, std::uint32_t element, cons
     p.in_doubt |= read.in_doubt;
   }
   return p;
+}
+
+/// What maps hide, and what they may hide where the point is not quite there.
+void bound_shadows(BoundedPoint& p, const ShadingScene& scene) {
+  p.visible.fill(Interval(1.0));
+  for (std::size_t i = 0; scene.shadows != nullptr && i < scene.shadows->size(); ++i) {
+    const LightShadow& shadow = (*scene.shadows)[i];
+    ShadowQuery query = shadow_query(p.point, scene, shadow);
+    double normal = 0, normal_error = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      query.position_error[int(c)] = p.error[shading_input::position + c];
+      normal = std::hypot(normal, p.point.inputs[shading_input::normal + c]);
+      normal_error = std::hypot(normal_error, p.error[shading_input::normal + c]);
+    }
+    query.normal_error = normal > normal_error ? 2 * normal_error / normal + 8 * half_ulp : 2;
+    const Visibility seen = visibility(shadow, query);
+    p.point.visible[i] = seen.value;
+    // The sum of the filter's weighted texels in float, over their number.
+    const double sum = (2.0 * shadow.radius + 2) * (2 * shadow.radius + 2) + 4;
+    p.visible[i] = {std::max(seen.low - sum * half_ulp, 0.0), seen.high + sum * half_ulp};
+  }
 }
 
 dvec4 as_vector(const Shaded<double>& s) { return {s.rgb[0], s.rgb[1], s.rgb[2], s.alpha}; }
@@ -293,9 +315,11 @@ dvec4 moved_inputs(const BoundedPoint& p, const Material& material, const Shadin
 }
 
 /// What float arithmetic on exact inputs may make of the shading.
-dvec4 arithmetic(const ShadingPoint<double>& point, const Material& material,
+dvec4 arithmetic(const ShadingPoint<double>& point,
+                 const std::array<Interval, most_shadows>& visible, const Material& material,
                  const ShadingScene& scene, const dvec4& value) {
   ShadingPoint<Interval> exact;
+  exact.visible = visible;
   for (std::size_t i = 0; i < shading_input::count; ++i) exact.inputs[i] = point.inputs[i];
   exact.back = point.back;
   const Shaded<Interval> range = shade(material, scene, exact);
@@ -314,7 +338,7 @@ dvec4 moved_together(const BoundedPoint& p, const Material& material, const Shad
       ShadingPoint<double> moved = p.point;
       for (std::size_t i = 0; i < shading_input::count; ++i)
         moved.inputs[i] += slopes[i][c] < 0 ? -side * p.error[i] : side * p.error[i];
-      largest[c] = std::max(largest[c], arithmetic(moved, material, scene, value)[c]);
+      largest[c] = std::max(largest[c], arithmetic(moved, p.visible, material, scene, value)[c]);
     }
   return largest;
 }
@@ -337,12 +361,13 @@ BoundedColor shade_with_bound(const PlacedDraw& draw, std::uint32_t element,
                               const ShadingScene& scene, const DeviceLimits& limits, int x, int y,
                               bool back) {
   if (s.topology != Topology::triangles) return line_or_point(draw, element, s, error, x, y);
-  const BoundedPoint p = bounded_point(draw, element, s, error, limits, scene.eye, {x, y}, back);
+  BoundedPoint p = bounded_point(draw, element, s, error, limits, scene.eye, {x, y}, back);
+  if (!s.material->unlit) bound_shadows(p, scene);
   BoundedColor color;
   color.value = as_vector(shade(*s.material, scene, p.point));
   Slopes slopes{};
   color.bound = moved_inputs(p, *s.material, scene, color.value, slopes) +
-                arithmetic(p.point, *s.material, scene, color.value);
+                arithmetic(p.point, p.visible, *s.material, scene, color.value);
   if (!s.material->unlit)
     color.bound = glm::max(color.bound, moved_together(p, *s.material, scene, color.value, slopes));
   color.in_doubt = p.in_doubt;

@@ -185,8 +185,11 @@ Shaded<Real> lit(const Material& m, const ShadingScene& scene, const ShadingPoin
   const Surface<Real> s = surface_at(m, scene, p, base);
   Triple<Real> sum = triple<Real>(dvec3(m.emission)) * inputs_at(p, input::emission_texture);
   if (s.coated) sum = sum * (Real(1.0) - s.coat_weight);
-  for (const PlacedLight& light : scene.lights) {
-    const Incoming<Real> in = incoming(light, inputs_at(p, input::position));
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const PlacedLight& light = scene.lights[i];
+    Incoming<Real> in = incoming(light, inputs_at(p, input::position));
+    if (scene.shadows != nullptr && scene.shadow_of_light[i] >= 0)
+      in.irradiance = in.irradiance * p.visible[std::size_t(scene.shadow_of_light[i])];
     const Real n_dot_l = clamped(dot(s.normal, in.to_light), 0, 1);
     if (vanishes(n_dot_l) || vanishes(in.irradiance)) continue;
     sum = sum + reflected(s, in.to_light, n_dot_l) *
@@ -210,8 +213,13 @@ Shaded<Real> lit(const Material& m, const ShadingScene& scene, const ShadingPoin
 
 ShadingScene shading_scene(const Frame& frame) {
   const EnvironmentLight* light = frame.environment ? &*frame.environment : nullptr;
-  return {
-      frame.eye, frame.backward, frame.orthographic, {dvec3(frame.ambient), light}, frame.lights};
+  ShadingScene scene{frame.eye,          frame.backward,
+                     frame.orthographic, {dvec3(frame.ambient), light},
+                     frame.lights,       std::vector<int>(frame.lights.size(), -1)};
+  for (std::size_t i = 0; i < frame.shadows.size(); ++i)
+    scene.shadow_of_light[std::size_t(frame.shadows[i].light)] = int(i);
+  if (!frame.shadows.empty()) scene.shadows = &frame.shadows;
+  return scene;
 }
 
 template <class Real>

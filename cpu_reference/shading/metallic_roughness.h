@@ -45,7 +45,10 @@ constexpr std::size_t count = 47;
 template <class Real>
 struct ShadingPoint {
   std::array<Real, shading_input::count> inputs{};
-  bool back = false;  ///< seen from behind: the normal turns over
+  bool back = false;                       ///< seen from behind: the normal turns over
+  std::array<Real, most_shadows> visible;  ///< share of the light of each of Frame::shadows
+
+  ShadingPoint() { visible.fill(Real(1.0)); }
 };
 
 /// What lights the scene and from where it is seen, in double.
@@ -55,8 +58,10 @@ struct ShadingScene {
   bool orthographic = false;
   Surroundings around;
   std::vector<PlacedLight> lights;
+  std::vector<int> shadow_of_light;                   ///< -1: nothing hides it
+  const std::vector<LightShadow>* shadows = nullptr;  ///< may be null
 };
-/// Refers to the frame's environment.
+/// Refers to the frame's environment and shadows.
 ShadingScene shading_scene(const Frame& frame);
 
 template <class Real>

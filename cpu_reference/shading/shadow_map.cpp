@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace parity::cpu {
 namespace {
@@ -11,7 +12,9 @@ double overlap(double a, double low, double high) {
   return std::max(0.0, std::min(a + 1, high) - std::max(a, low));
 }
 
-double visibility(const Grid<float>& map, const vec2& place, float depth, int radius) {
+}  // namespace
+
+double shadow_filter(const Grid<float>& map, const vec2& place, float depth, int radius) {
   const int side = map.width();
   // The middle of the box in texels, rounded as the device does.
   const float size = float(side);
@@ -28,8 +31,6 @@ double visibility(const Grid<float>& map, const vec2& place, float depth, int ra
   return lit / ((2 * reach) * (2 * reach));
 }
 
-}  // namespace
-
 std::vector<double> shadow_map(const ShadowProblem& p) {
   std::vector<double> result;
   result.reserve(p.points.size());
@@ -43,8 +44,104 @@ std::vector<double> shadow_map(const ShadowProblem& p) {
     const mat4& m = p.shadow_from_world[std::size_t(cascade)];
     const vec4 place = ((m[0] * point.x + m[1] * point.y) + m[2] * point.z) + m[3];
     const float depth = place.z - p.bias;
-    result.push_back(visibility(p.depths[std::size_t(cascade)], vec2(place), depth, p.radius));
+    result.push_back(shadow_filter(p.depths[std::size_t(cascade)], vec2(place), depth, p.radius));
   }
+  return result;
+}
+
+namespace {
+
+constexpr double half_ulp = 0x1p-24;
+
+/// A number and how far a device's may be off.
+struct Doubtful {
+  double value = 0;
+  double error = 0;
+};
+
+/// A row of a matrix of floats times a point: each product rounds twice and is added with others.
+Doubtful row_times(const dmat4& m, int row, const dvec3& p, const dvec3& error) {
+  Doubtful sum{m[3][row], std::abs(m[3][row]) * 8 * half_ulp};
+  for (int i = 0; i < 3; ++i) {
+    sum.value += m[i][row] * p[i];
+    sum.error += std::abs(m[i][row]) * (error[i] + 8 * half_ulp * std::abs(p[i]));
+  }
+  return sum;
+}
+
+Doubtful quotient(const Doubtful& a, const Doubtful& b) {
+  const double value = a.value / b.value;
+  if (!(b.value > b.error)) return {value, std::numeric_limits<double>::infinity()};
+  return {value, (a.error + std::abs(value) * b.error) / (b.value - b.error) +
+                     4 * half_ulp * std::abs(value)};
+}
+
+Visibility in_cascade(const LightShadow& shadow, std::size_t k, const ShadowQuery& query) {
+  const ShadowCascade& cascade = shadow.cascades[k];
+  dmat4 from_origin(1.0);
+  from_origin[3] = dvec4(query.origin, 1);
+  const dmat4 m = cascade.shadow_from_world * from_origin;
+  const dvec3 p = query.position - query.origin;
+  const Doubtful at = row_times(m, 3, p, query.position_error);
+  const double sine = glm::length(glm::cross(query.normal, query.axis));
+  const double lift = shadow.lift(k) * at.value;
+  const dvec3 lifted = p + query.normal * (lift * sine);
+  // The normal counts twice, as a direction and in the sine.
+  const dvec3 error =
+      query.position_error +
+      dvec3(shadow.lift(k) * at.error + std::abs(lift) * (2 * query.normal_error + 8 * half_ulp)) +
+      glm::abs(lifted) * half_ulp;
+  const Doubtful w = row_times(m, 3, lifted, error);
+  if (!(w.value + w.error > 0)) return {};
+  const Doubtful x = quotient(row_times(m, 0, lifted, error), w);
+  const Doubtful y = quotient(row_times(m, 1, lifted, error), w);
+  const Doubtful z = quotient(row_times(m, 2, lifted, error), w);
+  const double depth = std::min(z.value - double(shadow.bias), 1.0);
+  const double off = z.error + 2 * half_ulp;
+  const vec2 place(float(x.value), float(y.value));
+  const auto filtered = [&](double d) {
+    return shadow_filter(cascade.depths, place, float(std::min(d, 1.0)), shadow.radius);
+  };
+  // Over a texel on either axis the box loses and gains at most a column of it.
+  const double moved =
+      (x.error + y.error + half_ulp * (std::abs(x.value) + std::abs(y.value) + 4)) *
+      cascade.depths.width() / (2 * shadow.radius + 1);
+  Visibility result{filtered(depth), 0, 1};
+  if (!std::isfinite(moved) || !std::isfinite(off)) return result;
+  result.low = std::clamp(filtered(depth + off) - moved, 0.0, result.value);
+  result.high = std::clamp(filtered(depth - off) + moved, result.value, 1.0);
+  if (w.value <= w.error) result.high = 1;
+  return result;
+}
+
+}  // namespace
+
+Visibility visibility(const LightShadow& shadow, const ShadowQuery& query) {
+  const double distance = glm::dot(shadow.forward, query.position) + shadow.offset;
+  const double from_origin = std::abs(glm::dot(shadow.forward, query.origin) + shadow.offset);
+  const double error =
+      glm::dot(glm::abs(shadow.forward),
+               query.position_error + 8 * half_ulp * glm::abs(query.position - query.origin)) +
+      8 * half_ulp * from_origin + half_ulp * std::abs(distance);
+  Visibility result;
+  bool is_found = false;
+  double begin = -std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < shadow.cascades.size(); ++k) {
+    const double end = shadow.cascades[k].end;
+    const double doubt = 2 * error;  // ends are rounded as distances are
+    if (distance <= end + doubt && distance >= begin - doubt) {
+      const Visibility one = in_cascade(shadow, k, query);
+      const bool is_right = distance <= end && distance > begin;
+      const bool is_first = !is_found;
+      is_found = true;
+      result.low = is_first ? one.low : std::min(result.low, one.low);
+      result.high = is_first ? one.high : std::max(result.high, one.high);
+      if (is_right || is_first) result.value = one.value;
+    }
+    begin = end;
+  }
+  // Beyond the last one nothing hides.
+  if (is_found && distance + error > begin) result.high = 1;
   return result;
 }
 

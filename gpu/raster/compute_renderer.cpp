@@ -33,6 +33,7 @@ std::vector<Specialization> shade_constants(const SceneBuffers& scene, RenderOpt
   constants.push_back({11, std::uint32_t(frame.options.depth)});
   constants.push_back({22, scene.features().layers});
   constants.push_back({23, frame.environment.has_value()});
+  constants.push_back({24, !frame.shadows.empty()});
   return constants;
 }
 
@@ -69,6 +70,7 @@ ComputeRenderer::Target::Target(Context& context, const SceneBuffers& scene, Ren
                                 const Frame& frame, std::uint32_t item_count)
     : rasterizer(context, rasterizer_options(frame, item_count)),
       has_environment(frame.environment.has_value()),
+      has_shadows(!frame.shadows.empty()),
       triangles_kernel(context, shaders::raster_scene_triangles_comp),
       shade_kernel(context, shaders::raster_scene_shade_comp,
                    shade_constants(scene, options, frame)),
@@ -85,7 +87,7 @@ bool ComputeRenderer::Target::fits(const Frame& frame, std::uint32_t item_count)
   return have.width == want.width && have.height == want.height && have.samples == want.samples &&
          have.depth == want.depth && have.near == want.near && have.far == want.far &&
          have.triangle_capacity == want.triangle_capacity &&
-         has_environment == frame.environment.has_value();
+         has_environment == frame.environment.has_value() && has_shadows == !frame.shadows.empty();
 }
 
 void ComputeRenderer::record(Commands& commands, const Frame& frame, const Buffer<SceneArgs>& args,

@@ -37,6 +37,7 @@ class ComputeRenderer {
 
     TileRasterizer rasterizer;
     bool has_environment;
+    bool has_shadows;
     Kernel<SceneTriangleArgs> triangles_kernel;
     Kernel<SceneShadeArgs> shade_kernel;
     Buffer<vec4> clip_positions;

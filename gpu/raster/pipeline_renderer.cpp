@@ -64,7 +64,8 @@ Grid<T> grid(const Frame& frame, std::vector<T> values) {
 /// the rest leave nothing out.
 std::vector<Specialization> general_specializations(std::vector<Specialization> all) {
   std::erase_if(all, [](const Specialization& s) {
-    return s.id < 4 || s.id == 7 || (s.id > 8 && s.id < 14) || s.id == 15 || s.id == 22;
+    return s.id < 4 || s.id == 7 || (s.id > 8 && s.id < 14) || s.id == 15 || s.id == 22 ||
+           s.id == 24;
   });
   return all;
 }
@@ -119,7 +120,8 @@ PipelineRenderer::Key PipelineRenderer::key_of(const Frame& frame, const SceneFr
           data.has_placed_lights(),
           is_plain,
           frame.environment.has_value(),
-          scene_.has_layers(draw.material)};
+          scene_.has_layers(draw.material),
+          data.has_shadows()};
 }
 
 const RasterPipeline<SceneArgs>& PipelineRenderer::pipeline(const Key& key) {
@@ -145,6 +147,7 @@ const RasterPipeline<SceneArgs>& PipelineRenderer::pipeline(const Key& key) {
   options.specializations.push_back({15, key.has_placed_lights});
   options.specializations.push_back({22, key.layers});
   options.specializations.push_back({23, key.environment});
+  options.specializations.push_back({24, key.shadows});
   if (options_.general) options.specializations = general_specializations(options.specializations);
   const ShaderCode& vertex =
       key.is_plain ? shaders::raster_scene_plain_vert : shaders::raster_scene_vert;

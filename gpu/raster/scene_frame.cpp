@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "gpu/shading/punctual_light.h"
@@ -52,7 +53,39 @@ void place(SceneDraw& draw, const Draw& from, const dvec3& origin) {
 std::vector<SceneLight> place_lights(const Frame& frame) {
   std::vector<SceneLight> lights;
   for (const PlacedLight& light : frame.lights) lights.push_back(scene_light(light, frame.eye));
+  for (std::size_t i = 0; i < frame.shadows.size(); ++i)
+    lights[std::size_t(frame.shadows[i].light)].shadow = std::uint32_t(i) + 1;
   return lights;
+}
+
+Buffer<float> all_depths(Context& context, const LightShadow& shadow) {
+  std::vector<float> depths;
+  for (const ShadowCascade& cascade : shadow.cascades)
+    depths.insert(depths.end(), cascade.depths.begin(), cascade.depths.end());
+  return Buffer<float>(context, depths);
+}
+
+/// Positions stand relative to `origin`.
+SceneShadow describe(const LightShadow& shadow, const dvec3& origin, BufferRef<float> depths) {
+  SceneShadow result{};
+  dmat4 world_from_position(1.0);
+  world_from_position[3] = dvec4(origin, 1);
+  for (std::size_t k = 0; k < shadow.cascades.size(); ++k) {
+    const ShadowCascade& cascade = shadow.cascades[k];
+    result.shadow_from_position[k] = mat4(cascade.shadow_from_world * world_from_position);
+    result.ends[int(k)] = float(cascade.end);
+    result.lifts[int(k)] = float(shadow.lift(k));
+  }
+  // Nothing is nearer than the last end: what is beyond no cascade's.
+  for (std::size_t k = shadow.cascades.size(); k < 4; ++k)
+    result.ends[int(k)] = -std::numeric_limits<float>::infinity();
+  result.forward = vec3(shadow.forward);
+  result.offset = float(glm::dot(shadow.forward, origin) + shadow.offset);
+  result.depths = depths;
+  result.side = std::uint32_t(shadow.cascades[0].depths.width());
+  result.radius = std::uint32_t(shadow.radius);
+  result.bias = shadow.bias;
+  return result;
 }
 
 SceneEnvironment describe(const EnvironmentLight& light, BufferRef<vec4> mirrors) {
@@ -148,6 +181,12 @@ SceneFrame::SceneFrame(Context& context, const SceneBuffers& scene, BlendedPrimi
     environment_ = Buffer<SceneEnvironment>(
         context, std::vector<SceneEnvironment>{describe(*frame.environment, mirrors_)});
   }
+  std::vector<SceneShadow> shadows;
+  for (const LightShadow& shadow : frame.shadows) {
+    shadow_depths_.push_back(all_depths(context, shadow));
+    shadows.push_back(describe(shadow, frame.eye, shadow_depths_.back()));
+  }
+  if (!shadows.empty()) shadow_buffer_ = Buffer<SceneShadow>(context, shadows);
   args_ = {.draws = draw_buffer_,
            .materials = scene.materials(),
            .textures = scene.textures(),
@@ -162,7 +201,8 @@ SceneFrame::SceneFrame(Context& context, const SceneBuffers& scene, BlendedPrimi
            .orthographic = frame.orthographic ? 1u : 0u,
            .near = float(frame.near),
            .log2_far_over_near = float(log2_far_over_near(frame)),
-           .order = order_buffer_};
+           .order = order_buffer_,
+           .shadows = shadow_buffer_};
   has_placed_lights_ = std::ranges::any_of(frame.lights, [](const PlacedLight& placed) {
     return placed.light.kind != LightKind::directional;
   });

@@ -43,6 +43,7 @@ class SceneFrame {
   /// The same for one draw: what it is drawn from and its material stand first.
   SceneArgs args_of(std::size_t draw) const;
   bool has_placed_lights() const { return has_placed_lights_; }
+  bool has_shadows() const { return !shadow_depths_.empty(); }
   const std::vector<SceneDraw>& draws() const { return draws_; }
   const std::vector<uvec2>& order() const { return order_; }
   std::uint64_t triangle_count() const { return triangle_count_; }
@@ -55,6 +56,8 @@ class SceneFrame {
   Buffer<uvec2> order_buffer_;
   Buffer<vec4> mirrors_;  ///< of the environment
   Buffer<SceneEnvironment> environment_;
+  std::vector<Buffer<float>> shadow_depths_;  ///< by shadow
+  Buffer<SceneShadow> shadow_buffer_;
   SceneArgs args_{};
   bool has_placed_lights_ = false;  ///< points or spots
   std::uint64_t triangle_count_ = 0;

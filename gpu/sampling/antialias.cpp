@@ -42,6 +42,7 @@ struct RefineKey {
   DepthMode depth;
   bool blends;
   bool environment;  ///< a picture of it
+  bool shadows;
 
   bool operator==(const RefineKey&) const = default;
 };
@@ -53,6 +54,7 @@ std::vector<Specialization> refine_constants(const SceneFeatures& features, Refi
   constants.push_back({12, key.blends});
   constants.push_back({22, features.layers});
   constants.push_back({23, key.environment});
+  constants.push_back({24, key.shadows});
   return constants;
 }
 
@@ -257,7 +259,8 @@ void Antialiaser::State::make_lists(const Frame& frame) {
 }
 
 void Antialiaser::State::refine(const Frame& frame, std::uint32_t count, bool blends) {
-  const RefineKey key{frame.options.depth, blends, frame.environment.has_value()};
+  const RefineKey key{frame.options.depth, blends, frame.environment.has_value(),
+                      !frame.shadows.empty()};
   if (!refine_kernel || refine_key != key)
     refine_kernel.emplace(context, shaders::sampling_refine_comp,
                           refine_constants(buffers.features(), key));

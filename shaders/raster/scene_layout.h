@@ -101,7 +101,8 @@ struct SceneLight {
   float inverse_range;  // 1/m, 0 for infinite
   float angle_scale;    // KHR_lights_punctual, spot
   float angle_offset;
-  uint kind;  // light_*
+  uint kind;    // light_*
+  uint shadow;  // 1 + its number; 0: nothing hides it
 };
 REF_TYPE(SceneLight, 4)
 
@@ -142,7 +143,22 @@ struct SceneEnvironment {
 };
 REF_TYPE(SceneEnvironment, 8)
 
-// What all draws of a frame share, as push constants, which may be 128 bytes: 16 are left. For a draw
+// What hides a light: parity::LightShadow.
+struct SceneShadow {
+  mat4 shadow_from_position[4];  // x, y of the map 0 to 1, z depth, times w
+  vec4 ends;                     // distances along the view
+  vec4 lifts;                    // m where w is 1
+  vec3 forward;
+  float offset;
+  REF(float) depths;  // map after map
+  uint side;
+  uint radius;
+  float bias;
+  uint padding;
+};
+REF_TYPE(SceneShadow, 8)
+
+// What all draws of a frame share, as push constants, which may be 128 bytes: 8 are left. For a draw
 // that is not of `order`, `draws`, `materials` and `layers` begin with its own: reading what has one
 // address for all fragments is far cheaper than reading where each of them says.
 struct SceneArgs {
@@ -161,6 +177,7 @@ struct SceneArgs {
   float near;
   float log2_far_over_near;  // logarithmic depth only
   REF(uvec2) order;             // blended elements from far to near: draw, first index
+  REF(SceneShadow) shadows;
 };
 REF_TYPE(SceneArgs, 8)
 

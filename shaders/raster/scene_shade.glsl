@@ -5,9 +5,11 @@
 #include "raster/scene_layout.h"
 #include "shading/environment.glsl"
 #include "shading/layers.glsl"
+#include "shading/light_shadow.glsl"
 #include "shading/thin_film.glsl"
 #include "shading/punctual_light.glsl"
 #include "texture/sample.glsl"
+#include "texture/surface_detail.glsl"
 
 // What the scene holds: what it does not is left out.
 layout(constant_id = 0) const bool has_textures = true;
@@ -115,22 +117,20 @@ Texels read_textures(SceneArgs args, SceneMaterial material, Fragment f) {
 // Unit vectors of the surface, turned to the viewer's side.
 struct TangentFrame {
   vec3 tangent;
-  vec3 bitangent;
+  float handedness;
   vec3 normal;
 };
 
 TangentFrame tangent_frame(Fragment f) {
   const float side = f.front ? 1.0 : -1.0;
   const vec3 n = unit_or_zero(f.normal) * side;
-  if (!has_normal_maps) return TangentFrame(vec3(0.0), vec3(0.0), n);
-  const vec3 t = unit_or_zero(f.tangent.xyz) * side;
-  return TangentFrame(t, cross(n, t) * (f.tangent.w * side), n);
+  if (!has_normal_maps) return TangentFrame(vec3(0.0), 1.0, n);
+  return TangentFrame(unit_or_zero(f.tangent.xyz) * side, f.tangent.w * side, n);
 }
 
 // Bent by a normal map.
 vec3 mapped_normal(TangentFrame frame, vec3 texel, float scale) {
-  const vec3 m = (2.0 * texel - 1.0) * vec3(scale, scale, 1.0);
-  return unit_or_zero(m.x * frame.tangent + m.y * frame.bitangent + m.z * frame.normal);
+  return unit_or_zero(bent_normal(frame.normal, frame.tangent, frame.handedness, texel, scale));
 }
 
 // What is common to all materials. The reflectances of its dielectric at normal incidence and at
@@ -162,7 +162,8 @@ Layers layers_of(SceneArgs args, SceneLayers from, uint flags, inout Microsurfac
   const vec2 turn = from.anisotropy_direction;
   const float strength = from.anisotropy * texels.anisotropy.z;
   y.along = unit_or_zero((turn.x * d.x - turn.y * d.y) * frame.tangent +
-                         (turn.y * d.x + turn.x * d.y) * frame.bitangent);
+                         (turn.y * d.x + turn.x * d.y) * frame.handedness *
+                             cross(frame.normal, frame.tangent));
   y.across = cross(n, y.along);
   const float alpha = m.roughness * m.roughness;
   y.alpha = vec2(alpha + (1.0 - alpha) * (strength * strength), alpha);
@@ -260,7 +261,9 @@ vec4 lit_radiance(SceneArgs args, SceneMaterial material, uint index, Fragment f
   if (has_layers) emission *= 1.0 - y.coat_weight;
   vec3 sum = emission + around.rgb * occlusion;
   [[dont_unroll]] for (uint i = 0u; i < args.light_count; ++i) {
-    const IncidentLight light = incident_light(args.lights.at[i], f.position);
+    IncidentLight light = incident_light(args.lights.at[i], f.position);
+    light.irradiance *=
+        light_reaches(args, args.lights.at[i].shadow, f.position, frame.normal, args.lights.at[i].direction);
     sum += light.irradiance * (has_layers ? reflect_light(m, y, n, v, light.to_light, args.albedo_table)
                                           : reflect_light(m, n, v, light.to_light, args.albedo_table));
   }

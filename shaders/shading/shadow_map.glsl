@@ -11,6 +11,7 @@ float shadow_filter(ref_float depths, uint first, int side, vec2 place, float de
   const vec2 low = floor(at);
   const vec2 part = at - low;
   float sum = 0.0;
+  bool all = true;
   for (int j = -radius; j <= radius + 1; ++j) {
     const float weight_y = j == -radius ? 1.0 - part.y : (j == radius + 1 ? part.y : 1.0);
     for (int i = -radius; i <= radius + 1; ++i) {
@@ -20,10 +21,11 @@ float shadow_filter(ref_float depths, uint first, int side, vec2 place, float de
       bool lit = true;
       if (inside) lit = depth <= depths.at[first + uint(texel.y) * uint(side) + uint(texel.x)];
       if (lit) sum += weight_x * weight_y;
+      all = all && lit;
     }
   }
   const float width = float(2 * radius + 1);
-  return sum / (width * width);
+  return all ? 1.0 : sum / (width * width);  // weights need not add up to all exactly
 }
 
 // The first cascade that reaches that far; 4: none.

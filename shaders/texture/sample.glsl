@@ -33,11 +33,15 @@ vec4 decode_texel(uint texel, bool srgb, ref_float linear_from_srgb) {
               linear_from_srgb.at[(texel >> 16) & 255u], value.a);
 }
 
+bool stores_srgb(SceneTexture t) {
+  const uint role = t.flags & texture_role_mask;
+  return role == texture_base_color || role == texture_emission || role == texture_specular_color ||
+         role == texture_sheen_color;
+}
+
 // One level, filtered within it.
 vec4 sample_level(SceneTexture t, uint level, bool linear, vec2 uv, ref_float linear_from_srgb) {
-  const uint role = t.flags & texture_role_mask;
-  const bool srgb = role == texture_base_color || role == texture_emission ||
-                    role == texture_specular_color || role == texture_sheen_color;
+  const bool srgb = stores_srgb(t);
   const vec2 size = vec2(max(t.width >> level, 1u), max(t.height >> level, 1u));
   const uint wrap_u = (t.flags >> texture_wrap_u_shift) & 3u;
   const uint wrap_v = (t.flags >> texture_wrap_v_shift) & 3u;
@@ -95,8 +99,7 @@ vec4 sample_at_level(SceneTexture t, vec2 uv, float lambda, ref_float linear_fro
 
 // One level, averaged over an ellipse.
 vec4 average_level(SceneTexture t, uint level, vec2 uv, Ellipse ellipse, ref_float linear_from_srgb) {
-  const uint role = t.flags & texture_role_mask;
-  const bool srgb = role == texture_base_color || role == texture_emission;
+  const bool srgb = stores_srgb(t);
   const vec2 size = vec2(max(t.width >> level, 1u), max(t.height >> level, 1u));
   const uint wrap_u = (t.flags >> texture_wrap_u_shift) & 3u;
   const uint wrap_v = (t.flags >> texture_wrap_v_shift) & 3u;
