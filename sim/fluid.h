@@ -181,15 +181,16 @@ FaceFields boundary_velocity(const FluidDomain& domain, const std::vector<FluidS
 /// particle is, the rest is air. Cells that are not active are air whatever they hold.
 std::vector<CellType> cell_types(const FluidProblem& problem, const FluidState& state);
 
-/// Cells along the sides of the tiles and blocks of a sparse fluid; those of flat domains are one
-/// cell thick.
-constexpr int fluid_tile = 8;
-constexpr int fluid_block = 4;
+/// Cells along the sides of the tiles of a sparse fluid, the first of which lies at the origin.
+constexpr ivec3 fluid_tile = {8, 4, 4};
 
-/// The cells that the step from a state on computes: those of tiles that hold a busy cell or lie
-/// within a block of one. Busy is what holds more smoke, heat or speed than the parameters say,
-/// what is in a source, and of a liquid what holds a particle. Tiles and blocks begin at the
-/// origin.
+/// Cells that smoke may cross in a step of a sparse fluid, rounded up, and one for interpolation.
+int active_margin(const FluidParameters& parameters);
+
+/// The cells that the step from a state on computes: those of tiles with a busy cell in them or
+/// beside them, at most `active_margin` cells away along each axis. Busy is what holds more smoke,
+/// heat or speed than the parameters say, what is in a source, and of a liquid what holds a
+/// particle.
 ///
 /// What lies outside is air at rest under pressure 0, without smoke and heat: whatever was there is
 /// dropped, which is never more than the parameters allow. Faces move if a cell beside them is
@@ -197,8 +198,9 @@ constexpr int fluid_block = 4;
 /// plume; the walls of a box are felt only where they touch active tiles.
 std::vector<std::uint8_t> active_cells(const FluidProblem& problem, const FluidState& state);
 
-/// Eight values a tile, x fastest: a block that a source reaches into is 1.
-std::vector<std::uint32_t> source_blocks(const FluidProblem& problem);
+/// Four values a tile, x fastest, one for each z in it: bit x + 8 y of those cells that are in a
+/// source.
+std::vector<std::uint32_t> source_rows(const FluidProblem& problem);
 
 /// Position of the point (x, y, z) of a field; `axis` 0 to 2 for face fields, -1 for cells.
 dvec3 point_position(const FluidDomain& domain, int axis, ivec3 point);

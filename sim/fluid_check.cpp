@@ -72,9 +72,8 @@ void check_parameters(const FluidParameters& p) {
   require_at_least("busy_speed", p.busy_speed, 0);
   require(!p.sparse || is_split(p.method), "sparse needs a method that traces back, or a liquid");
   require(!p.sparse || !p.implicit_viscosity, "sparse needs explicit viscosity");
-  require(!p.sparse || p.courant <= fluid_block - 1,
-          "courant is " + std::to_string(p.courant) + ", must be at most " +
-              std::to_string(fluid_block - 1) + " where sparse");
+  require(!p.sparse || p.courant <= 3,
+          "courant is " + std::to_string(p.courant) + ", must be at most 3 where sparse");
   require(p.max_iterations >= 1 && p.max_iterations <= 10000,
           "max_iterations is " + std::to_string(p.max_iterations) + ", must be 1 to 10000");
 }

@@ -14,8 +14,6 @@ void for_points(ivec3 size, const Visit& visit) {
       for (int x = 0; x < size.x; ++x) visit(ivec3(x, y, z));
 }
 
-ivec3 parts(ivec3 cells, int side) { return (cells + side - 1) / side; }
-
 bool is_in_a_source(const FluidProblem& problem, ivec3 cell) {
   const dvec3 position = point_position(problem.domain, -1, cell);
   // A cell more: rounding must not decide.
@@ -35,48 +33,54 @@ bool is_busy(const FluidProblem& problem, const FluidState& state, ivec3 cell) {
   return false;
 }
 
-/// 1 in blocks that hold a busy cell.
-Field busy_blocks(const FluidProblem& problem, const FluidState& state) {
+/// 1 in busy cells.
+Field busy_cells(const FluidProblem& problem, const FluidState& state) {
   const FluidDomain& domain = problem.domain;
-  Field blocks(parts(domain.cells, fluid_block));
+  Field busy(domain.cells);
   if (is_liquid(problem.parameters.method)) {
-    for (const vec3 p : state.particles.positions)
-      blocks(particle_cell(domain, p) / fluid_block) = 1;
-    return blocks;
+    for (const vec3 p : state.particles.positions) busy(particle_cell(domain, p)) = 1;
+    return busy;
   }
-  for_points(domain.cells, [&](ivec3 cell) {
-    if (is_busy(problem, state, cell)) blocks(cell / fluid_block) = 1;
-  });
-  return blocks;
+  for_points(domain.cells, [&](ivec3 cell) { busy(cell) = is_busy(problem, state, cell) ? 1 : 0; });
+  return busy;
+}
+
+/// Marks the tiles that lie within a margin of a cell.
+void mark_tiles(Field& tiles, ivec3 cell, int margin) {
+  const ivec3 low = glm::max((cell - margin) / fluid_tile, ivec3(0));
+  const ivec3 high = glm::min((cell + margin) / fluid_tile, tiles.size - 1);
+  for_points(high - low + 1, [&](ivec3 step) { tiles(low + step) = 1; });
 }
 
 }  // namespace
 
+int active_margin(const FluidParameters& parameters) {
+  return 1 + int(std::ceil(parameters.courant));
+}
+
 std::vector<std::uint8_t> active_cells(const FluidProblem& problem, const FluidState& state) {
   const ivec3 cells = problem.domain.cells;
-  const Field blocks = busy_blocks(problem, state);
-  Field tiles(parts(cells, fluid_tile));
-  for_points(tiles.size, [&](ivec3 tile) {
-    const ivec3 low = glm::max(2 * tile - 1, ivec3(0));
-    const ivec3 high = glm::min(2 * tile + 2, blocks.size - 1);
-    for_points(high - low + 1,
-               [&](ivec3 step) { tiles(tile) = std::max(tiles(tile), blocks(low + step)); });
+  const Field busy = busy_cells(problem, state);
+  Field tiles((cells + fluid_tile - 1) / fluid_tile);
+  for_points(cells, [&](ivec3 cell) {
+    if (busy(cell) > 0) mark_tiles(tiles, cell, active_margin(problem.parameters));
   });
   std::vector<std::uint8_t> active;
   for_points(cells, [&](ivec3 cell) { active.push_back(tiles(cell / fluid_tile) > 0 ? 1 : 0); });
   return active;
 }
 
-std::vector<std::uint32_t> source_blocks(const FluidProblem& problem) {
-  const Field tiles(parts(problem.domain.cells, fluid_tile));
-  std::vector<std::uint32_t> blocks(8 * tiles.values.size(), 0);
-  for_points(problem.domain.cells, [&](ivec3 cell) {
+std::vector<std::uint32_t> source_rows(const FluidProblem& problem) {
+  const ivec3 cells = problem.domain.cells;
+  const Field tiles((cells + fluid_tile - 1) / fluid_tile);
+  std::vector<std::uint32_t> rows(4 * tiles.values.size(), 0);
+  for_points(cells, [&](ivec3 cell) {
     if (!is_in_a_source(problem, cell)) return;
-    const ivec3 tile = cell / fluid_tile, odd = cell / fluid_block % 2;
-    blocks[8 * tiles.index(tile.x, tile.y, tile.z) + std::size_t(odd.x + 2 * odd.y + 4 * odd.z)] =
-        1;
+    const ivec3 tile = cell / fluid_tile, in = cell % fluid_tile;
+    rows[4 * tiles.index(tile.x, tile.y, tile.z) + std::size_t(in.z)] |=
+        1u << (in.x + fluid_tile.x * in.y);
   });
-  return blocks;
+  return rows;
 }
 
 }  // namespace parity

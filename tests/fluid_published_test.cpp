@@ -6,10 +6,10 @@
 #include <numbers>
 #include <sstream>
 
-#include "cpu_reference/fluid/advect.h"
 #include "cpu_reference/fluid/liquid.h"
 #include "cpu_reference/fluid/step.h"
 #include "gpu/fluid/step.h"
+#include "tests/fluid/cavity_flow.h"
 #include "tests/fluid/fluid_fields.h"
 #include "tests/gpu_context.h"
 #include "tests/shared_data.h"
@@ -26,22 +26,6 @@ FluidState run_to(const FluidProblem& problem, double time) {
   return simulation.read();
 }
 
-/// The field between its points along an axis through a place, linear; outside as the wall says.
-double along(const Field& u, int axis, ivec3 place, double at, double low, double high) {
-  std::vector<double> x{0}, y{low};
-  const double h = 1.0 / u.size[axis];
-  for (int k = 0; k < u.size[axis]; ++k) {
-    place[axis] = k;
-    x.push_back((k + 0.5) * h);
-    y.push_back(u(place));
-  }
-  x.push_back(1);
-  y.push_back(high);
-  const auto above = std::ranges::upper_bound(x, std::min(at, 1 - 1e-12)) - x.begin();
-  const auto i = std::size_t(above);
-  return y[i - 1] + (at - x[i - 1]) / (x[i] - x[i - 1]) * (y[i] - y[i - 1]);
-}
-
 /// Rows "position, Re 100, Re 400, Re 1000" of a table of Ghia, Ghia & Shin.
 std::vector<std::array<double, 4>> ghia_table(const std::string& path) {
   std::vector<std::array<double, 4>> rows;
@@ -56,34 +40,14 @@ std::vector<std::array<double, 4>> ghia_table(const std::string& path) {
   return rows;
 }
 
-/// From coarse to fine: each grid begins with the flow of the one before.
-FluidState cavity(double reynolds, std::vector<std::pair<int, double>> grids) {
-  FluidState state;
-  FluidDomain from;
-  for (const auto& [cells, time] : grids) {
-    FluidProblem problem = lid_driven_cavity(cells, reynolds);
-    problem.parameters.divergence = 1e-2;
-    for (int axis = 0; axis < 2 && from.cells.x > 0; ++axis) {
-      Field& u = problem.initial.velocity[std::size_t(axis)];
-      for (int y = 0; y < u.size.y; ++y)
-        for (int x = 0; x < u.size.x; ++x) {
-          const int at = axis == 0 ? x : y;
-          if (at == 0 || at == cells) continue;
-          u(x, y, 0) = cpu::sample(from, state.velocity[std::size_t(axis)], axis,
-                                   point_position(problem.domain, axis, {x, y, 0}));
-        }
-    }
-    state = run_to(problem, time);
-    from = problem.domain;
-  }
-  return state;
-}
-
 struct GhiaCase {
   double reynolds;
   std::size_t column;
   std::vector<std::pair<int, double>> grids;
 };
+
+/// Of v at Re 400; the test below says why.
+constexpr double misprint = 0.9063;
 
 class Ghia : public testing::TestWithParam<GhiaCase> {};
 
@@ -92,19 +56,40 @@ TEST_P(Ghia, CavityCentrelinesWithinOnePercentOfTheLid) {
   const auto v_path = shared_data("reference/ghia1982_v_horizontal_centreline.csv");
   if (!u_path || !v_path) GTEST_SKIP() << "skipped: no shared data";
   const GhiaCase& c = GetParam();
-  const FluidState state = cavity(c.reynolds, c.grids);
-  const int n = c.grids.back().first;
+  const CavityRun run = cavity_runs(test_context(), c.reynolds, c.grids).back();
+  EXPECT_TRUE(run.converged);
+  const FluidState& state = run.state;
   const auto u_rows = ghia_table(u_path->string()), v_rows = ghia_table(v_path->string());
   ASSERT_EQ(u_rows.size(), 17u);
   ASSERT_EQ(v_rows.size(), 17u);
   for (const auto& row : u_rows)
-    EXPECT_NEAR(along(state.velocity[0], 1, {n / 2, 0, 0}, row[0], 0, 1), row[c.column], 0.01)
-        << "u at y = " << row[0];
+    EXPECT_NEAR(centre_u(state, row[0]), row[c.column], 0.01) << "u at y = " << row[0];
   for (const auto& row : v_rows) {
-    // A suspected misprint of the table, see its header.
-    if (c.reynolds == 400 && row[0] == 0.9063) continue;
-    EXPECT_NEAR(along(state.velocity[1], 0, {0, n / 2, 0}, row[0], 0, 0), row[c.column], 0.01)
-        << "v at x = " << row[0];
+    if (c.reynolds == 400 && row[0] == misprint) continue;
+    EXPECT_NEAR(centre_v(state, row[0]), row[c.column], 0.01) << "v at x = " << row[0];
+  }
+}
+
+/// A cubic through the rows around meets the row at Re 100 and at Re 1000, where the profile bends
+/// most there, within 1 % of the lid's speed, and misses it by 13 % at Re 400.
+TEST(GhiaTable, TheRowThatIsLeftOutContradictsThoseAroundIt) {
+  const auto path = shared_data("reference/ghia1982_v_horizontal_centreline.csv");
+  if (!path) GTEST_SKIP() << "skipped: no shared data";
+  for (const std::size_t column : {1u, 2u, 3u}) {
+    std::vector<double> x, y;
+    double printed = 0;
+    for (const auto& row : ghia_table(path->string())) {
+      if (row[0] == misprint) {
+        printed = row[column];
+        continue;
+      }
+      x.insert(x.begin(), row[0]);
+      y.insert(y.begin(), row[column]);
+    }
+    const double apart = std::abs(cubic_through(x, y, misprint) - printed);
+    const bool is_contradicted = apart > 0.13;
+    EXPECT_EQ(is_contradicted, column == 2) << apart;
+    EXPECT_TRUE(is_contradicted || apart < 0.01) << apart;
   }
 }
 
@@ -303,6 +288,22 @@ TEST(Liquid, AColumnAtRestStaysAtRest) {
     fastest = std::max(fastest, double(glm::length(v)));
   EXPECT_LT(fastest / std::sqrt(2 * 9.81), 1e-6);
   EXPECT_EQ(m.mass, measure(problem, problem.initial).mass);
+}
+
+TEST(FluidSimulation, TheSizeOfBatchesDoesNotMatter) {
+  for (const FluidMethod method :
+       {FluidMethod::maccormack, FluidMethod::central, FluidMethod::flip}) {
+    FluidProblem problem = is_liquid(method) ? dam_break(8, 1, 2) : smoke_plume(12, 2);
+    problem.parameters.method = method;
+    problem.parameters.sparse = method == FluidMethod::maccormack;
+    gpu::FluidSimulation single(test_context(), problem), batched(test_context(), problem);
+    // The end falls into a batch: steps after it do nothing.
+    EXPECT_EQ(single.run_until(0.3, 1).steps, batched.run_until(0.3, 8).steps);
+    EXPECT_EQ(numbers_of(single.read()), numbers_of(batched.read())) << int(method);
+    single.run_until(0.5, 1);
+    batched.run_until(0.5, 8);
+    EXPECT_EQ(numbers_of(single.read()), numbers_of(batched.read())) << int(method);
+  }
 }
 
 TEST(FluidSimulation, AResumedRunHasTheSameBits) {

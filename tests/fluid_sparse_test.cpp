@@ -42,23 +42,24 @@ TEST(SparseFluid, HasTheBitsOfARunThatVisitsTheWholeBox) {
   }
 }
 
-/// 40 x 40 cells are 5 x 5 tiles of 2 x 2 blocks each.
-TEST(ActiveCells, AreThoseOfTilesWithinABlockOfABusyCell) {
+/// 40 x 40 cells are 5 x 10 tiles.
+TEST(ActiveCells, AreThoseOfTilesWithinTheMarginOfABusyCell) {
   FluidProblem problem = hydrostatic_box(40, 2);
   problem.domain.cells.x = 40;
   problem.initial = resting_state(problem.domain);
+  problem.parameters.courant = 1.5;  // a margin of 3
   const auto active = [&](int x, int y) {
     return active_cells(problem, problem.initial)[std::size_t(40 * y + x)] == 1;
   };
-  EXPECT_FALSE(active(12, 20));
-  problem.initial.smoke(12, 20, 0) = 1;  // in the right upper block of tile 1, 2
-  EXPECT_TRUE(active(12, 20));
-  EXPECT_TRUE(active(8, 16));
-  EXPECT_TRUE(active(23, 31));   // tile 2, 3 touches the block
-  EXPECT_FALSE(active(7, 20));   // tile 0 does not
-  EXPECT_FALSE(active(12, 15));  // nor does the row below
-  EXPECT_FALSE(active(24, 20));
-  problem.initial.smoke(12, 20, 0) = 0;
+  EXPECT_FALSE(active(13, 20));
+  problem.initial.smoke(13, 20, 0) = 1;
+  EXPECT_TRUE(active(13, 20));
+  EXPECT_TRUE(active(8, 23));
+  EXPECT_TRUE(active(23, 16));   // tile 2 begins 3 cells on
+  EXPECT_FALSE(active(7, 20));   // tile 0 ended 6 cells before
+  EXPECT_TRUE(active(13, 17));   // the row of tiles below ends one cell before
+  EXPECT_FALSE(active(13, 24));  // the row above begins 4 cells on
+  problem.initial.smoke(13, 20, 0) = 0;
   problem.initial.velocity[0](40, 0, 0) = 1;  // the last face of a row
   EXPECT_TRUE(active(39, 0));
   EXPECT_FALSE(active(0, 0));

@@ -98,7 +98,8 @@ FluidScene scene_of(const FluidProblem& problem) {
                    .source_count = std::uint32_t(problem.sources.size()),
                    .busy_smoke = float(p.busy_smoke),
                    .busy_heat = float(p.busy_heat),
-                   .busy_speed = float(p.busy_speed)};
+                   .busy_speed = float(p.busy_speed),
+                   .margin = std::uint32_t(active_margin(p))};
   for (std::size_t side = 0; side < 6; ++side) {
     scene.walls[side] = std::uint32_t(domain.walls[side].kind);
     scene.wall_velocities[side] = vec3(domain.walls[side].velocity);

@@ -25,8 +25,8 @@ class ActiveTiles {
  private:
   const FluidBuffers& buffers_;
   bool is_liquid_;
-  Buffer<std::uint32_t> held_, blocks_;
-  Kernel<FluidTileArgs> blocks_kernel_, flags_kernel_;
+  Buffer<std::uint32_t> held_, busy_;
+  Kernel<FluidTileArgs> busy_kernel_, flags_kernel_;
   Kernel<FluidArgs> clear_kernel_;
 };
 

@@ -67,7 +67,7 @@ void Multigrid::record_transfer(Commands& commands, const Kernel<TransferArgs>& 
                           .mode = 0,
                           .padding = 0};
   if (fine == 0 && system_.tiles() != nullptr) {
-    system_.tiles()->dispatch(commands, kernel, down ? tile_pairs : tile_columns, args);
+    system_.tiles()->dispatch(commands, kernel, down ? tile_rows : tile_quads, args);
   } else {
     commands.dispatch(kernel, {threads}, args);
   }

@@ -114,7 +114,7 @@ PressureSystem::PressureSystem(Context& context, const PressureShape& shape, con
   control_ = Buffer<SolverControl>(context, 1);
   // Enough for a pass with runs of one cell, and for pairs of vector operations.
   partials_ = Buffer<float>(context, std::max<std::size_t>(quads_of(shape.cells), 1024));
-  if (tiles_ != nullptr) partials_ = Buffer<float>(context, std::size_t{16} * tiles_->tile_count());
+  if (tiles_ != nullptr) partials_ = Buffer<float>(context, std::size_t{8} * tiles_->tile_count());
   fill_with_zero(context, words_);
   fill_with_zero(context, pressures_);
   fill_with_zero(context, right_sides_);

@@ -5,10 +5,10 @@
 namespace parity::gpu {
 
 TileLists::TileLists(Context& context, uvec3 cells)
-    : tiles_((cells + grid_tile - 1u) / grid_tile),
+    : tiles_((cells + uvec3(tile_x, tile_yz, tile_yz) - 1u) / uvec3(tile_x, tile_yz, tile_yz)),
       is_flat_(cells.z == 1),
       flags_(context, tile_count()),
-      list_(context, tile_count()),
+      list_(context, 2 * tile_count()),
       groups_(context, active_tiles + 1),
       starts_(context, 257),
       table_(context, std::vector<TileTable>{{flags_, list_, groups_, starts_, 0, 0}}),

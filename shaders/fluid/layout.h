@@ -17,8 +17,6 @@ const uint wall_open = 2u;
 const uint wall_periodic = 3u;
 const uint fluid_upwind = 0u;
 const uint fluid_central = 1u;
-/// Cells along the side of a block; two blocks a side of a tile.
-const uint block_side = 4u;
 /// Parts of an axis' listed tiles that the largest speed is found in.
 const uint tile_speeds = 256u;
 
@@ -65,6 +63,7 @@ struct FluidScene {
   float busy_smoke;  ///< what makes a block busy, sim/fluid.h
   float busy_heat;
   float busy_speed;
+  uint margin;  ///< cells that a tile may lie beside a busy one and be active
   uint walls[6];
   vec3 wall_velocities[6];
   REF(TileTable) tiles;  ///< null: the whole box
@@ -112,8 +111,8 @@ struct FluidTileArgs {
   REF(float) smoke;
   REF(float) temperature;
   REF(uint) ranges;  ///< of particles in cells, as in LiquidArgs
-  REF(uint) held;    ///< of each block, eight a tile: a source is in it
-  REF(uint) blocks;  ///< of each block: it is busy
+  REF(uint) held;    ///< four a tile, one for each z in it: bits of the cells that sources hold
+  REF(uint) busy;    ///< the same of all busy cells
   uint is_liquid;
   uint padding;
 };

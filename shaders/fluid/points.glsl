@@ -1,13 +1,13 @@
 // Which point of a field a thread is for. Needs fluid/grid.glsl and numerics/tiles.glsl.
 
-uvec3 tile_size(uvec3 cells) { return uvec3(grid_tile, grid_tile, cells.z == 1u ? 1u : grid_tile); }
+uvec3 tile_size(uvec3 cells) { return uvec3(tile_x, tile_yz, min(cells.z, tile_yz)); }
 
 /// Point `slot` of the k-th listed tile: its cells, or the faces across `axis` below its cells and,
 /// where no listed tile follows, those above the last. False: there is none.
 bool listed_point_of_slot(FluidScene scene, uint axis, uint k, uint slot, out ivec3 at) {
   TileTable table = scene.tiles.at[0];
   const uvec3 side = tile_size(scene.cells), tile = tile_at(table.list.at[k]);
-  const uvec3 corner = grid_tile * tile;
+  const uvec3 corner = tile_side * tile;
   const uint volume = side.x * side.y * side.z;
   uvec3 point;
   if (slot < volume) {
@@ -38,7 +38,7 @@ bool listed_point_of_thread(FluidScene scene, uint axis, out ivec3 at) {
 
 bool in_active_tile(FluidScene scene, ivec3 cell) {
   return all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, ivec3(scene.cells))) &&
-         is_active(scene.tiles.at[0], scene.cells, uvec3(cell) / grid_tile);
+         is_active(scene.tiles.at[0], scene.cells, uvec3(cell) / tile_side);
 }
 
 /// A cell of an active tile, or a face with one beside it.

@@ -15,7 +15,7 @@ void main() {
   if (with_tiles != 0u) {
     FluidScene scene = args.scene.at[0];
     const uint id = gl_GlobalInvocationID.x, count = scene.tiles.at[0].groups.at[0];
-    const uint slots = scene.cells.z == 1u ? 128u : 576u;
+    const uint slots = scene.cells.z == 1u ? 64u : 160u;
     for (uint k = id * count / tile_speeds; k < (id + 1u) * count / tile_speeds; ++k)
       for (uint slot = 0u; slot < slots; ++slot) {
         ivec3 at;

@@ -16,8 +16,12 @@ const uint quads = 0u;  ///< of cells as the pressure is stored; else numbers a 
 void main() {
   if (args.clock.at[0].step == 0.0) return;
   FluidScene scene = args.scene.at[0];
+  // The tiles that were left stand in the list behind the others.
+  const uint k = scene.tiles.at[0].groups.at[0] + gl_WorkGroupID.x;
+  const uint slot = gl_WorkGroupID.y * 64u + gl_LocalInvocationID.x;
   ivec3 at;
-  if (!listed_point_of_thread(scene, args.axis, at) || is_active_point(scene, args.axis, at)) return;
+  if (!listed_point_of_slot(scene, args.axis, k, slot, at) || is_active_point(scene, args.axis, at))
+    return;
   const uint index = point_index(points_of(scene.cells, args.axis), at);
   if (args.axis < 3u) {
     write_face(args.velocity, args.axis, index, 0.0);

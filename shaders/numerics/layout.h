@@ -66,29 +66,30 @@ struct SolverControl {
 };
 REF_TYPE(SolverControl, 4)
 
-/// Cells along the side of a tile.
-const uint grid_tile = 8u;
+/// Cells of a tile along x, and along y and z.
+const uint tile_x = 8u;
+const uint tile_yz = 4u;
 /// Flags of a tile: it is active; it was until now.
 const uint tile_active = 1u;
 const uint tile_left = 2u;
 
 /// Where TileTable::groups has the workgroups of 64 threads that cover the listed tiles, three numbers
-/// each: 8 threads a tile, 16, 64, all its cells, all its faces of an axis; the same for the tiles
-/// that were left too.
+/// each: 4 threads a tile, 16, all its cells, all its faces of an axis; the cells of these and of the
+/// tiles that were left; cells and faces of the latter alone.
 const uint tile_rows = 2u;
-const uint tile_pairs = 5u;
-const uint tile_columns = 8u;
-const uint tile_cells = 11u;
-const uint tile_faces = 14u;
-const uint touched_cells = 17u;
-const uint touched_faces = 20u;
+const uint tile_quads = 5u;
+const uint tile_cells = 8u;
+const uint tile_faces = 11u;
+const uint touched_cells = 14u;
+const uint left_cells = 17u;
+const uint left_faces = 20u;
 /// There the count of active tiles, listed or not.
 const uint active_tiles = 23u;
 
 /// The tiles of a box that are worked on.
 struct TileTable {
   REF(uint) flags;   ///< of all tiles of the box, x fastest
-  REF(uint) list;    ///< x, y, z in 10 bits each: active tiles in the order of flags, then the left
+  REF(uint) list;    ///< x, y, z in 10 bits each: listed tiles in the order of flags, then the left
   REF(uint) groups;  ///< [0] count of listed tiles, [1] with the left; then as said above
   /// [k]: place in the list of the first active tile of the k-th of 256 equal parts of the box; sums
   /// by these parts do not depend on which tiles are active but hold only zeros.
@@ -158,7 +159,7 @@ struct ReduceArgs {
   REF(float) partials;
   REF(SolverControl) control;
   REF(TileTable) tiles;  ///< null: the whole box
-  uint count;            ///< of partials; with tiles, which leave 8 each: of all tiles of the box
+  uint count;            ///< of partials; with tiles, which leave 4 each: of all tiles of the box
   uint mode;
 };
 

@@ -29,11 +29,11 @@ void main() {
     }
   } else {
     const uint at = gl_WorkGroupID.y * 64u + gl_LocalInvocationID.x;
-    cell = grid_tile * tile_at(args.tiles.at[0].list.at[gl_WorkGroupID.x]) +
-           uvec3(at % 8u, at / 8u % 8u, at / 64u);
-    if (any(greaterThanEqual(cell, n))) return;
+    cell = tile_side * tile_at(args.tiles.at[0].list.at[gl_WorkGroupID.x]) +
+           uvec3(at % 8u, at / 8u % 4u, at / 32u);
+    if (at >= 128u || any(greaterThanEqual(cell, n))) return;
     slot = slot_of_cell(args.level, cell);
-    if (!is_active(args.tiles.at[0], n, cell / grid_tile)) {
+    if (!is_active(args.tiles.at[0], n, cell / tile_side)) {
       ref_uint(args.level.words).at[slot] = pressure_air;
       return;
     }

@@ -44,8 +44,8 @@ void main() {
   uint begin = id * chunk, end = min((id + 1u) * chunk, args.count);
   if (with_tiles != 0u) {
     TileTable table = args.tiles.at[0];
-    begin = 8u * table.starts.at[id];
-    end = 8u * table.starts.at[id + 1u];
+    begin = 4u * table.starts.at[id];
+    end = 4u * table.starts.at[id + 1u];
   }
   const bool pairs = args.mode == next_direction || args.mode == mean;
   vec2 sum = vec2(0.0);

@@ -101,14 +101,14 @@ void main() {
   uint end = min(begin + args.run, args.level.cells.z);
   if (with_tiles == 0u && id >= columns * runs) return;
   if (with_tiles != 0u) {
-    // Eight threads a tile, a column each.
+    // Four threads a tile, a column each.
     TileTable table = args.tiles.at[0];
-    if (id / 8u >= table.groups.at[0]) return;
-    const uvec3 corner = grid_tile * tile_at(table.list.at[id / 8u]);
+    if (id / 4u >= table.groups.at[0]) return;
+    const uvec3 corner = tile_side * tile_at(table.list.at[id / 4u]);
     i = corner.x / 8u;
-    y = corner.y + id % 8u;
+    y = corner.y + id % 4u;
     begin = corner.z;
-    end = y < args.level.cells.y ? min(begin + grid_tile, args.level.cells.z) : begin;
+    end = y < args.level.cells.y ? min(begin + tile_yz, args.level.cells.z) : begin;
   }
   if (mode == first_colour) {
     for (uint z = begin; z < end; ++z) from_zero(i, y, z);

@@ -17,23 +17,22 @@ void write_groups(TileTable table, uint at, uint x, uint y) {
 
 /// Workgroups of 64 threads: tile_dispatch of the layout.
 void write_all_groups(TileTable table, uint listed, uint touched) {
-  const uint cells = args.is_flat != 0u ? 1u : 8u, faces = args.is_flat != 0u ? 2u : 9u;
+  const uint cells = args.is_flat != 0u ? 1u : 2u, faces = args.is_flat != 0u ? 1u : 3u;
   table.groups.at[0] = listed;
   table.groups.at[1] = touched;
-  write_groups(table, tile_rows, (listed + 7u) / 8u, 1u);
-  write_groups(table, tile_pairs, (listed + 3u) / 4u, 1u);
-  write_groups(table, tile_columns, listed, 1u);
+  write_groups(table, tile_rows, (listed + 15u) / 16u, 1u);
+  write_groups(table, tile_quads, (listed + 3u) / 4u, 1u);
   write_groups(table, tile_cells, listed, cells);
   write_groups(table, tile_faces, listed, faces);
   write_groups(table, touched_cells, touched, cells);
-  write_groups(table, touched_faces, touched, faces);
+  write_groups(table, left_cells, touched - listed, cells);
+  write_groups(table, left_faces, touched - listed, faces);
 }
 
-/// 1 where a tile is listed as active (x), or as one that was left (y), and where it is active (z).
+/// 1 where a tile is to be visited (x), was left (y), and is active (z).
 uvec3 kind_of(TileTable table, uint tile) {
   const uint flags = table.flags.at[tile], now = flags & tile_active;
-  if (table.visit_all != 0u) return uvec3(1u, 0u, now);
-  return uvec3(now, flags == tile_left ? 1u : 0u, now);
+  return uvec3(table.visit_all | now, flags == tile_left ? 1u : 0u, now);
 }
 
 void main() {

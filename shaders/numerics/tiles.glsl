@@ -1,10 +1,12 @@
-// The tiles that a kernel visits: boxes of 8 cells along each axis that is longer than one cell.
-// Needs numerics/layout.h.
+// The tiles that a kernel visits: boxes of 8 x 4 x 4 cells, of flat grids one cell
+// thick. Needs numerics/layout.h.
 
 /// 0: the whole box. 1: the tiles of a list.
 layout(constant_id = 2) const uint with_tiles = 0u;
 
-uvec3 tiles_of(uvec3 cells) { return (cells + grid_tile - 1u) / grid_tile; }
+const uvec3 tile_side = uvec3(tile_x, tile_yz, tile_yz);
+
+uvec3 tiles_of(uvec3 cells) { return (cells + tile_side - 1u) / tile_side; }
 
 uvec3 tile_at(uint packed_tile) {
   return uvec3(packed_tile & 1023u, (packed_tile >> 10u) & 1023u, packed_tile >> 20u);

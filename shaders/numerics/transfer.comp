@@ -26,8 +26,8 @@ void main() {
   uint i = id % row, y = (id / row) % size.x, z = id / (row * size.x);
   if (with_tiles == 0u && id >= row * size.x * size.y) return;
   if (with_tiles != 0u) {
-    // Under a fine tile lie four by four rows of coarse cells, in it eight by eight of quads.
-    const uint side = down ? 4u : 8u, k = id / (side * side);
+    // Under a fine tile lie two by two rows of coarse cells, in it four by four of quads.
+    const uint side = down ? 2u : 4u, k = id / (side * side);
     TileTable table = args.tiles.at[0];
     if (k >= table.groups.at[0]) return;
     const uvec3 tile = tile_at(table.list.at[k]);

@@ -78,14 +78,14 @@ void main() {
     if (begin >= args.quads) return;
     for (uint k = begin; k < end; ++k) work_on(control, k, a, b);
   } else {
-    // Eight threads a tile, one plane of it each.
+    // Four threads a tile, one plane of it each.
     TileTable table = args.tiles.at[0];
-    if (id / 8u >= table.groups.at[0]) return;
-    const uvec3 tile = tile_at(table.list.at[id / 8u]);
-    const uint y = grid_tile * tile.y, z = grid_tile * tile.z + id % 8u;
-    for (uint k = 0u; k < 16u && z < args.cells.z; ++k)
-      if (y + k % 8u < args.cells.y)
-        work_on(control, ((k / 8u * args.cells.z + z) * args.cells.y + y + k % 8u) * args.row + tile.x, a, b);
+    if (id / 4u >= table.groups.at[0]) return;
+    const uvec3 tile = tile_at(table.list.at[id / 4u]);
+    const uint y = tile_yz * tile.y, z = tile_yz * tile.z + id % 4u;
+    for (uint k = 0u; k < 8u && z < args.cells.z; ++k)
+      if (y + k % 4u < args.cells.y)
+        work_on(control, ((k / 4u * args.cells.z + z) * args.cells.y + y + k % 4u) * args.row + tile.x, a, b);
   }
   if (mode == direction || mode == subtract_mean) return;
   if (mode == advance) {

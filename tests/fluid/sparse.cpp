@@ -4,6 +4,7 @@
 #include "cpu_reference/fluid/liquid.h"
 #include "cpu_reference/fluid/step.h"
 #include "gpu/fluid/step.h"
+#include "tests/chart.h"
 #include "tests/fluid/fluid_fields.h"
 #include "tests/stage.h"
 
@@ -100,6 +101,106 @@ const Registration sparse_registration = register_stage<Problem, FluidState>(
          "at most 2 D L of flow; traces of up to 2.6 cells through values that change by their "
          "size from cell to cell. Which cells are active must agree",
      .chart_axes = {"side"}});
+
+/// A cube of `cells` a side in which a ball of hot smoke has a part of the room, beside a sphere.
+FluidProblem ball_of_smoke(int cells, double part) {
+  FluidProblem problem = smoke_plume(8, 3);
+  problem.domain.cells = ivec3(cells);
+  problem.domain.spacing = 1.0 / cells;
+  problem.initial = resting_state(problem.domain);
+  problem.sources.clear();
+  problem.solids[0] = {.center = {0.5, 0.92, 0.5}, .half = dvec3(0.05)};
+  problem.parameters.courant = 1;
+  problem.parameters.busy_speed = 0.3;
+  problem.parameters.max_iterations = 14;  // suffice; what is not needed is skipped, but launched
+  const double radius = std::cbrt(part * 3 / (4 * 3.14159265));
+  for (int z = 0; z < cells; ++z)
+    for (int y = 0; y < cells; ++y)
+      for (int x = 0; x < cells; ++x) {
+        if (glm::distance(point_position(problem.domain, -1, {x, y, z}), dvec3(0.5)) > radius)
+          continue;
+        problem.initial.smoke(x, y, z) = 1;
+        problem.initial.temperature(x, y, z) = 60;
+      }
+  return problem;
+}
+
+struct TimedSteps {
+  double seconds = 0;  ///< of the quicker of the last two of three steps
+  FluidState state;
+};
+
+TimedSteps three_steps(gpu::Context& context, const FluidProblem& problem) {
+  gpu::FluidSimulation simulation(context, problem);
+  TimedSteps result;
+  for (int k = 0; k < 3; ++k) {
+    const double seconds =
+        context.run([&](gpu::Commands& commands) { simulation.record_step(commands); }).seconds;
+    if (k > 0) result.seconds = k == 1 ? seconds : std::min(seconds, result.seconds);
+  }
+  result.state = simulation.read();
+  return result;
+}
+
+double part_of(const std::vector<std::uint8_t>& active) {
+  return double(std::ranges::count(active, 1)) / double(active.size());
+}
+
+/// Sum of the differences of smoke over that of smoke.
+double smoke_apart(const FluidState& got, const FluidState& want) {
+  double apart = 0, all = 0;
+  for (std::size_t i = 0; i < want.smoke.values.size(); ++i) {
+    apart += std::abs(got.smoke.values[i] - want.smoke.values[i]);
+    all += want.smoke.values[i];
+  }
+  return apart / all;
+}
+
+ChartData cost_of_smoke(gpu::Context& context) {
+  const int cells = 128;
+  ChartData data;
+  Series by_smoke{.name = "by the smoke's part of the box", .points = {}};
+  Series by_tiles{.name = "by the active tiles' part of the box", .points = {}};
+  double dense = 0, at_tenth = 0, apart = 0, worst = 0;
+  for (const double part : {0.1, 0.03, 0.01, 0.003}) {
+    FluidProblem problem = ball_of_smoke(cells, part);
+    TimedSteps whole;
+    if (part == 0.1) {
+      whole = three_steps(context, problem);
+      dense = whole.seconds;
+    }
+    problem.parameters.sparse = true;
+    const TimedSteps sparse = three_steps(context, problem);
+    const double cost = sparse.seconds / dense, active = part_of(sparse.state.active);
+    if (part == 0.1) {
+      at_tenth = cost;
+      apart = smoke_apart(sparse.state, whole.state);
+      data.settings.emplace_back("active where smoke has 10 %", std::to_string(active));
+    }
+    worst = std::max(worst, cost / active);
+    by_smoke.points.push_back({part, cost, std::to_string(part)});
+    by_tiles.points.push_back({active, cost, std::to_string(part)});
+  }
+  data.series = {by_smoke,
+                 by_tiles,
+                 {.name = "cost = part of the box",
+                  .points = {{0.003, 0.003, ""}, {0.3, 0.3, ""}},
+                  .kind = Series::Kind::theory}};
+  data.assertions = {
+      {"cost of smoke that has 10 % of the box / dense", at_tenth, 0.2},
+      {"cost / active part of the box", worst, 1.5},
+      {"smoke that lies elsewhere than in the whole box, two steps on", apart, 0.01}};
+  data.settings.emplace_back("grid", "128^3 in a closed box, MacCormack");
+  data.settings.emplace_back("dense step", std::to_string(dense) + " s");
+  return data;
+}
+
+const Registration cost_chart =
+    register_chart({.name = "fluid/sparse",
+                    .title = "Cost of a step in active tiles, of that of the whole box",
+                    .x = {.label = "part of the box"},
+                    .y = {.label = "time / dense time"},
+                    .produce = cost_of_smoke});
 
 }  // namespace
 }  // namespace parity

@@ -4,8 +4,8 @@
 #include "fluid/grid.glsl"
 #include "numerics/tiles.glsl"
 
-// Is there anything in a block of 4 cells a side? Eight threads a listed tile, one a block. What was
-// not listed is empty. Source: sim/fluid.h, active_cells.
+// Which cells hold anything: four threads a listed tile, a plane of it each. What was not listed is
+// empty. Source: sim/fluid.h, active_cells.
 layout(local_size_x = 64) in;
 layout(scalar, push_constant) uniform Push { FluidTileArgs args; };
 
@@ -28,15 +28,14 @@ void main() {
   if (args.clock.at[0].step == 0.0) return;
   FluidScene scene = args.scene.at[0];
   TileTable table = scene.tiles.at[0];
-  const uint k = gl_GlobalInvocationID.x / 8u, block = gl_GlobalInvocationID.x % 8u;
+  const uint k = gl_GlobalInvocationID.x / 4u, plane = gl_GlobalInvocationID.x % 4u;
   if (k >= table.groups.at[0]) return;
   const uvec3 tile = tile_at(table.list.at[k]);
-  const uvec3 low = grid_tile * tile + block_side * uvec3(block & 1u, (block >> 1u) & 1u, block >> 2u);
-  const uvec3 high = min(low + block_side, scene.cells);
-  const uint place = 8u * tile_index(tiles_of(scene.cells), tile) + block;
-  bool busy = args.held.at[place] != 0u;
-  for (uint z = low.z; z < high.z; ++z)
-    for (uint y = low.y; y < high.y; ++y)
-      for (uint x = low.x; x < high.x; ++x) busy = busy || is_busy(scene, ivec3(x, y, z));
-  args.blocks.at[place] = busy ? 1u : 0u;
+  const uint place = 4u * tile_index(tiles_of(scene.cells), tile) + plane;
+  uint bits = args.held.at[place];
+  for (uint bit = 0u; bit < 32u; ++bit) {
+    const uvec3 cell = tile_side * tile + uvec3(bit % tile_x, bit / tile_x, plane);
+    if (all(lessThan(cell, scene.cells)) && is_busy(scene, ivec3(cell))) bits |= 1u << bit;
+  }
+  args.busy.at[place] = bits;
 }
