@@ -208,6 +208,15 @@ TEST(SphStep, EdgesOfTheInput) {
   EXPECT_THROW(step.write({}), std::invalid_argument);
 }
 
+/// As many cells as a million particles have in a tank seven times as large: more than a dispatch
+/// along one axis takes.
+TEST(SphNeighbours, AreFoundInALargeTank) {
+  SphProblem problem = sph_dam_break(3, 0.5, 6);
+  problem.domain.high = dvec3(problem.parameters.spacing * 2 * 100);
+  SphNeighbourLists want = cpu::sph_neighbours(problem);
+  EXPECT_EQ(want.fluid, gpu::sph_neighbours(test_context(), problem).fluid);
+}
+
 /// Memory of a million particles, from what a run of few takes: buffers are linear in the
 /// particles. A list of 72 neighbours is 288 B, a dozen vec4 192 B, cells of half a support in a
 /// tank seven times as large as the fluid 60 B; a tenth for walls.

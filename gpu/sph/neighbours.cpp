@@ -56,6 +56,7 @@ CellSort::CellSort(Context& context, const SphConstants& constants, std::uint32_
     : count_(count),
       cell_count_(cell_count(constants)),
       row_(constants.grid.cells.x),
+      rows_(constants.grid.cells.y),
       key_bits_(std::uint32_t(std::bit_width(cell_count_))),
       cell_key_(context, shaders::sph_cell_key_comp),
       cell_start_(context, shaders::sph_cell_start_comp),
@@ -83,10 +84,10 @@ void CellSort::record(Commands& commands, BufferRef<SphConstants> constants,
                      .count = count_,
                      .cell_count = cell_count_,
                      .row = row_,
-                     .first_only = 1};
+                     .rows = 0};
   commands.dispatch(cell_start_, {cell_count_ / row_ + 1}, args);
-  args.first_only = 0;
-  commands.dispatch(cell_start_, {cell_count_}, args);
+  args.rows = rows_;
+  commands.dispatch(cell_start_, {row_, rows_, cell_count_ / (row_ * rows_)}, args);
   record_gather(commands, positions, sorted_);
 }
 

@@ -30,7 +30,8 @@ class CellSort {
  private:
   std::uint32_t count_;
   std::uint32_t cell_count_;
-  std::uint32_t row_;  ///< cells
+  std::uint32_t row_;   ///< cells
+  std::uint32_t rows_;  ///< along y
   std::uint32_t key_bits_;
   Kernel<CellKeyArgs> cell_key_;
   Kernel<CellStartArgs> cell_start_;

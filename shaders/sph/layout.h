@@ -85,8 +85,8 @@ struct CellStartArgs {
   REF(uint) starts;  ///< of each cell the number of smaller keys; one more than cells
   uint count;
   uint cell_count;
-  uint row;         ///< cells in a row
-  uint first_only;  ///< 1: of the first cell of each row; 0: of the others, between those
+  uint row;   ///< cells in a row
+  uint rows;  ///< along y; 0: of the first cell of each row, else of the others, between those
 };
 
 struct GatherArgs {
