@@ -35,10 +35,10 @@ struct LightShadow {
   int radius = 1;                       ///< texels; the filter is 2 radius + 1 wide
   float bias = 0;                       ///< depth
 
-  /// How far a receiver is moved along its normal n where w is 1, over the sine of the angle
-  /// between n and the axis of the map. A plane's depth within reach of the filter, r + 1 texels t
-  /// on both axes, is less by (|n_x| + |n_y|) (r + 1) t w / |cos| at most, where cos is that of n
-  /// and the ray; a receiver at a height h over it is nearer by h / |cos|.
+  /// How far a receiver is moved along its normal n where w is 1. A plane's depth within reach of
+  /// the filter, r + 1 texels t on both axes, is less by (|n_x| + |n_y|) (r + 1) t w / |cos| at most,
+  /// where cos is that of n and the ray; a receiver at a height h over it is nearer by h / |cos|.
+  /// |n_x| + |n_y| counts as its largest, sqrt 2: surfaces that face the light may be rough.
   double lift(std::size_t cascade) const {
     return 1.4142135623730951 * (radius + 1) * cascades[cascade].texel;
   }

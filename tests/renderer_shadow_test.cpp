@@ -62,8 +62,8 @@ struct Wall {
 
 double beyond(const dvec2& p, double size) { return std::max(std::abs(p.x), std::abs(p.y)) - size; }
 
-/// Compares with what geometry says, but for its border: r + 1 texels for filter and map, and what
-/// a receiver is moved, 2 (r + 1) texels times a sine of less than a half; a texel is at most 0.02
+/// Compares with what geometry says, but for its border: r + 1 texels of filter and map, and
+/// sqrt 2 (r + 1) by which a receiver is moved; in the plane of the square a texel is at most 0.015
 /// m.
 void expect_shadow(const Wall& wall, const Grid<vec4>& with, const Grid<vec4>& without) {
   int dark = 0, lit = 0;
@@ -77,7 +77,7 @@ void expect_shadow(const Wall& wall, const Grid<vec4>& with, const Grid<vec4>& w
         continue;
       }
       const double outside = beyond(wall.toward_light(p), blocker_size);
-      if (std::abs(outside) < 0.06) continue;
+      if (std::abs(outside) < 0.075) continue;
       (outside < 0 ? dark : lit) += 1;
       EXPECT_EQ(with(x, y), outside < 0 ? vec4(0, 0, 0, 1) : without(x, y)) << x << ", " << y;
     }

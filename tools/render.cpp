@@ -191,9 +191,20 @@ std::optional<Antialiasing> antialiasing(const RenderArguments& arguments) {
 constexpr int environment_side = 256;
 constexpr int environment_samples = 128;
 
-std::optional<EnvironmentMap> load_environment(const std::string& text) {
+/// Side of what is shown of it behind the scene: as fine as pictures of 2048 x 1024.
+constexpr int backdrop_side = 1024;
+
+/// A picture of the light from all around.
+struct Surroundings {
+  EnvironmentMap light;
+  EnvironmentMap backdrop;
+};
+
+std::optional<Surroundings> load_environment(const std::string& text, bool is_shown) {
   if (text.empty() || !names_a_file(text)) return std::nullopt;
-  return environment_map(load_image(text), environment_side);
+  const Grid<vec4> picture = load_image(text);
+  return Surroundings{environment_map(picture, environment_side),
+                      is_shown ? environment_map(picture, backdrop_side) : EnvironmentMap{}};
 }
 
 /// The way a pixel's centre looks, in the world.
@@ -222,13 +233,13 @@ struct Task {
   const RenderArguments& arguments;
   const Scene& scene;
   Frame frame;
-  std::optional<EnvironmentMap> environment;
+  std::optional<Surroundings> environment;
   bool display = false;  ///< 8-bit output
 
   bool casts_shadows() const { return arguments.shadows == "on"; }
   bool shows_environment() const { return environment && arguments.background.empty(); }
   void finish(Picture& picture) const {
-    if (shows_environment()) show_environment(*environment, frame, picture);
+    if (shows_environment()) show_environment(environment->backdrop, frame, picture);
   }
 };
 
@@ -239,7 +250,7 @@ Job render_on_cpu(Task& task) {
   job.device = "CPU reference";
   const double start = seconds_now();
   if (task.environment)
-    task.frame.environment = cpu::prefilter(*task.environment, environment_samples);
+    task.frame.environment = cpu::prefilter(task.environment->light, environment_samples);
   if (task.casts_shadows())
     task.frame.shadows = cast_shadows(task.scene, task.frame, {}, [&](const Frame& map) {
       return cpu::render(task.scene, map, {.colors = false}).picture.depth;
@@ -272,7 +283,7 @@ Job render_on_gpu(Task& task) {
                  context.info().driver.c_str());
   const double start = seconds_now();
   if (task.environment)
-    task.frame.environment = gpu::prefilter(context, *task.environment, environment_samples);
+    task.frame.environment = gpu::prefilter(context, task.environment->light, environment_samples);
   gpu::Renderer renderer(context, task.scene);
   if (task.casts_shadows())
     task.frame.shadows = cast_shadows(task.scene, task.frame, {},
@@ -385,7 +396,11 @@ int render(const RenderArguments& arguments) {
   if (!arguments.quiet)
     for (const std::string& note : scene.notes)
       std::fprintf(stderr, "%s: %s\n", arguments.input.c_str(), note.c_str());
-  Task task{arguments, scene, {}, load_environment(arguments.environment), display};
+  Task task{arguments,
+            scene,
+            {},
+            load_environment(arguments.environment, arguments.background.empty()),
+            display};
   if (display || task.shows_environment()) options.background = vec4(0);
   options.key_light = !task.environment;
   task.frame = make_frame(scene, options);

@@ -232,16 +232,13 @@ ShadingPoint<double> shading_point(const ElementSurface& s, int x, int y, bool b
   return point;
 }
 
-ShadowQuery shadow_query(const ShadingPoint<double>& point, const ShadingScene& scene,
-                         const LightShadow& shadow) {
+ShadowQuery shadow_query(const ShadingPoint<double>& point, const ShadingScene& scene) {
   const auto triple = [&](std::size_t first) {
     return dvec3(point.inputs[first], point.inputs[first + 1], point.inputs[first + 2]);
   };
   const dvec3 normal = triple(shading_input::normal);
   const double length = glm::length(normal);
-  ShadowQuery query{.position = triple(shading_input::position),
-                    .axis = scene.lights[std::size_t(shadow.light)].direction,
-                    .origin = scene.eye};
+  ShadowQuery query{.position = triple(shading_input::position), .origin = scene.eye};
   if (length > 0) query.normal = normal * ((point.back ? -1.0 : 1.0) / length);
   return query;
 }
@@ -250,10 +247,8 @@ Shaded<double> shade_at(const ElementSurface& s, const ShadingScene& scene, int 
                         bool back) {
   if (s.topology == Topology::triangles) {
     ShadingPoint<double> point = shading_point(s, x, y, back);
-    for (std::size_t i = 0; scene.shadows != nullptr && i < scene.shadows->size(); ++i) {
-      const LightShadow& shadow = (*scene.shadows)[i];
-      point.visible[i] = visibility(shadow, shadow_query(point, scene, shadow)).value;
-    }
+    for (std::size_t i = 0; scene.shadows != nullptr && i < scene.shadows->size(); ++i)
+      point.visible[i] = visibility((*scene.shadows)[i], shadow_query(point, scene)).value;
     return shade(*s.material, scene, point);
   }
   const dvec4 color =

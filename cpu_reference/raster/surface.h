@@ -94,9 +94,8 @@ TexturePlace texture_place(const ElementSurface& s, std::size_t slot, const Quad
 /// Varyings and textures at the centre of a pixel.
 ShadingPoint<double> shading_point(const ElementSurface& s, int x, int y, bool back);
 
-/// What a shadow map is asked there, without errors.
-ShadowQuery shadow_query(const ShadingPoint<double>& point, const ShadingScene& scene,
-                         const LightShadow& shadow);
+/// What shadow maps are asked there, without errors.
+ShadowQuery shadow_query(const ShadingPoint<double>& point, const ShadingScene& scene);
 
 /// What a surface gives at a pixel: shade for triangles, base colour times vertex colour for lines
 /// and points.

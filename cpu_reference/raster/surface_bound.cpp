@@ -272,7 +272,7 @@ void bound_shadows(BoundedPoint& p, const ShadingScene& scene) {
   p.visible.fill(Interval(1.0));
   for (std::size_t i = 0; scene.shadows != nullptr && i < scene.shadows->size(); ++i) {
     const LightShadow& shadow = (*scene.shadows)[i];
-    ShadowQuery query = shadow_query(p.point, scene, shadow);
+    ShadowQuery query = shadow_query(p.point, scene);
     double normal = 0, normal_error = 0;
     for (std::size_t c = 0; c < 3; ++c) {
       query.position_error[int(c)] = p.error[shading_input::position + c];

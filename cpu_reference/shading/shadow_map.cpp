@@ -83,13 +83,11 @@ Visibility in_cascade(const LightShadow& shadow, std::size_t k, const ShadowQuer
   const dmat4 m = cascade.shadow_from_world * from_origin;
   const dvec3 p = query.position - query.origin;
   const Doubtful at = row_times(m, 3, p, query.position_error);
-  const double sine = glm::length(glm::cross(query.normal, query.axis));
   const double lift = shadow.lift(k) * at.value;
-  const dvec3 lifted = p + query.normal * (lift * sine);
-  // The normal counts twice, as a direction and in the sine.
+  const dvec3 lifted = p + query.normal * lift;
   const dvec3 error =
       query.position_error +
-      dvec3(shadow.lift(k) * at.error + std::abs(lift) * (2 * query.normal_error + 8 * half_ulp)) +
+      dvec3(shadow.lift(k) * at.error + std::abs(lift) * (query.normal_error + 8 * half_ulp)) +
       glm::abs(lifted) * half_ulp;
   const Doubtful w = row_times(m, 3, lifted, error);
   if (!(w.value + w.error > 0)) return {};

@@ -24,7 +24,6 @@ double shadow_filter(const Grid<float>& map, const vec2& place, float depth, int
 struct ShadowQuery {
   dvec3 position{0.0};
   dvec3 normal{0.0};          ///< unit, of the surface without normal map
-  dvec3 axis{0.0, 0.0, 1.0};  ///< unit, the way the light looks
   dvec3 position_error{0.0};  ///< each component, m
   double normal_error = 0;
   dvec3 origin{0.0};  ///< to which a device keeps its positions relative

@@ -262,8 +262,7 @@ vec4 lit_radiance(SceneArgs args, SceneMaterial material, uint index, Fragment f
   vec3 sum = emission + around.rgb * occlusion;
   [[dont_unroll]] for (uint i = 0u; i < args.light_count; ++i) {
     IncidentLight light = incident_light(args.lights.at[i], f.position);
-    light.irradiance *=
-        light_reaches(args, args.lights.at[i].shadow, f.position, frame.normal, args.lights.at[i].direction);
+    light.irradiance *= light_reaches(args, args.lights.at[i].shadow, f.position, frame.normal);
     sum += light.irradiance * (has_layers ? reflect_light(m, y, n, v, light.to_light, args.albedo_table)
                                           : reflect_light(m, n, v, light.to_light, args.albedo_table));
   }

@@ -8,16 +8,14 @@
 // Of the frame: some light may be hidden.
 layout(constant_id = 24) const bool has_shadows = true;
 
-// The axis is the way the light looks, unit.
-float light_reaches(SceneArgs args, uint number, vec3 p, vec3 n, vec3 axis) {
+float light_reaches(SceneArgs args, uint number, vec3 p, vec3 n) {
   if (!has_shadows || number == 0u) return 1.0;
   SceneShadow s = args.shadows.at[number - 1u];
   const uint k = shadow_cascade(s.ends, dot(s.forward, p) + s.offset);
   if (k == 4u) return 1.0;
   const mat4 m = s.shadow_from_position[k];
   const float w = dot(vec3(m[0].w, m[1].w, m[2].w), p) + m[3].w;
-  const vec3 sine = cross(n, axis);
-  const vec3 lifted = p + n * (s.lifts[k] * w * sqrt(dot(sine, sine)));
+  const vec3 lifted = p + n * (s.lifts[k] * w);
   const vec4 place = ((m[0] * lifted.x + m[1] * lifted.y) + m[2] * lifted.z) + m[3];
   if (!(place.w > 0.0)) return 1.0;
   const float depth = min(place.z / place.w - s.bias, 1.0);
