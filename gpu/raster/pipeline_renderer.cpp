@@ -110,8 +110,9 @@ PipelineRenderer::Key PipelineRenderer::key_of(const Frame& frame, const SceneFr
                                                const Draw& draw) const {
   const AlphaMode mode = scene_.alpha_mode(draw.material);
   const SceneFeatures& has = scene_.features();
-  const bool is_plain = !has.textures && !has.colors && !has.normal_maps && !options_.general &&
-                        !options_.elements && frame.options.depth != DepthMode::logarithmic;
+  const bool is_plain = !has.textures && !has.colors && !has.normal_maps &&
+                        mode != AlphaMode::blend && !options_.general && !options_.elements &&
+                        frame.options.depth != DepthMode::logarithmic;
   return {scene_.primitive(draw.mesh, draw.primitive).topology,
           frame.options.depth,
           frame.options.samples,

@@ -10,28 +10,28 @@ layout(constant_id = 8) const bool in_order = false;  // blended: culls by itsel
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
-layout(location = 4) flat in uvec2 ids;
 layout(location = 0) out vec4 out_color;
 
 // Without what only textures and vertex colours need.
-Fragment plain_fragment() {
+Fragment plain_fragment(uint draw_flags) {
   Fragment f;
   f.position = position;
   f.normal = normal;
   f.tangent = vec4(0.0);
   f.color = vec4(1.0);
   for (uint i = 0u; i < 3u; ++i) f.uv[i] = f.uv_dx[i] = f.uv_dy[i] = vec4(0.0);
-  f.front = gl_FrontFacing != ((ids.x & draw_flag_mirrored) != 0u);
+  f.front = gl_FrontFacing != ((draw_flags & draw_flag_mirrored) != 0u);
   return f;
 }
 
 // Colour (straight) and alpha of this fragment, unless it is cut out.
-vec4 finish(Fragment f) {
-  const vec4 result = shade_fragment(args, ids.x >> draw_flag_bits, (ids.x & draw_flag_unlit) != 0u, f);
+vec4 finish(Fragment f, uint material, uint draw_flags) {
+  const bool unlit = (draw_flags & draw_flag_unlit) != 0u;
+  const vec4 result = shade_fragment(args, material, unlit, f);
   if (cuts_out && result.a < 0.0) discard;
   if (in_order && !f.front) {
-    const uint flags = args.materials.at[ids.x >> draw_flag_bits].flags;
-    if ((flags & material_flag_double_sided) == 0u && (ids.x & draw_flag_unlit) == 0u) discard;
+    const uint flags = args.materials.at[material].flags;
+    if ((flags & material_flag_double_sided) == 0u && !unlit) discard;
   }
   return result;
 }

@@ -2,7 +2,8 @@
 #pragma no_contraction
 #include "raster/scene_fragment.glsl"
 
-// One fragment of a scene without textures and vertex colours.
+// One opaque fragment of a scene without textures and vertex colours.
 void main() {
-  out_color = finish(plain_fragment());
+  const uint draw_flags = args.draws.at[0u].flags;
+  out_color = finish(plain_fragment(draw_flags), 0u, draw_flags);
 }

@@ -14,11 +14,11 @@ layout(constant_id = 6) const uint corners = 3u;  // of an element, when pulling
 
 layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
-layout(location = 4) flat out uvec2 ids;  // material and flags of the draw; 1 + element
 
 struct Pulled {
   SceneDraw draw;
   uint vertex;
+  uint element;  // 1 + number; 0 unless corners are counted
 };
 
 Pulled pull_vertex() {
@@ -30,9 +30,9 @@ Pulled pull_vertex() {
     vertex = element.y + vertex % corners;
   }
   SceneDraw draw = args.draws.at[d];
-  ids = uvec2(draw.material << draw_flag_bits | (draw.flags & ((1u << draw_flag_bits) - 1u)), 0u);
+  uint element = 0u;
   if (pulling != 0u) {
-    ids.y = draw.first_element + vertex / draw.corners + 1u;
+    element = draw.first_element + vertex / draw.corners + 1u;
     vertex = draw.indices.at[vertex];
   }
   const vec3 p = draw.positions.at[vertex];
@@ -40,6 +40,6 @@ Pulled pull_vertex() {
   normal = vertex_normal(draw, vertex);
   gl_Position = clip_position(draw.clip_from_object, p);
   gl_PointSize = 1.0;
-  return Pulled(draw, vertex);
+  return Pulled(draw, vertex, element);
 }
 #endif

@@ -5,11 +5,12 @@
 
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec4 color;
+layout(location = 4) flat in uvec2 ids;
 layout(location = 5) in vec4 uv[3];
 
 // Colour (straight) and alpha of this fragment, unless it is cut out.
 vec4 shade() {
-  Fragment f = plain_fragment();
+  Fragment f = plain_fragment(ids.x);
   if (has_normal_maps) f.tangent = tangent;
   // White that is interpolated may round to less.
   if (has_colors && (ids.x & draw_flag_colors) != 0u) f.color = color;
@@ -19,6 +20,6 @@ vec4 shade() {
     f.uv_dx[i] = dFdxFine(uv[i]);
     f.uv_dy[i] = dFdyFine(uv[i]);
   }
-  return finish(f);
+  return finish(f, ids.x >> draw_flag_bits, ids.x);
 }
 #endif
