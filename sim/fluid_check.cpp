@@ -129,6 +129,10 @@ void check_fluid_problem(const FluidProblem& problem) {
   for (int axis = 0; axis < 3; ++axis)
     require(!problem.parameters.sparse || !problem.domain.is_periodic(axis),
             "sparse needs walls or open sides, axis " + std::to_string(axis) + " is periodic");
+  const ivec3 tiles = (cells + fluid_tile - 1) / fluid_tile;
+  const long long tile_count = 1LL * tiles.x * tiles.y * tiles.z;
+  require(!problem.parameters.sparse || tile_count <= 65535,
+          "there are " + std::to_string(tile_count) + " tiles, at most 65535 where sparse");
   require(state.active.empty() || state.active.size() == problem.domain.cell_count(),
           "active does not fit the domain");
   for (int axis = 0; axis < 3; ++axis)

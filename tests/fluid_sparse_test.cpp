@@ -131,6 +131,10 @@ TEST(SparseFluid, RefusesWhatItCannotDo) {
   refused([](FluidProblem& p) { p.parameters.busy_speed = std::nan(""); });
   refused([](FluidProblem& p) { p.solids[0].velocity = {1, 0, 0}; });
   refused([](FluidProblem& p) {
+    p.domain.cells = {2048, 1024, 1};
+    p.initial = resting_state(p.domain);
+  });
+  refused([](FluidProblem& p) {
     p.domain.walls[0].kind = p.domain.walls[1].kind = WallKind::periodic;
   });
 }

@@ -5,7 +5,8 @@
 namespace parity::gpu {
 
 /// Chooses the tiles that a step works on from what the last one left in them, and empties the
-/// others. Only tiles of the last step are looked through.
+/// others. Only tiles of the last step are looked through. Time follows the active tiles, but for
+/// the coarse grids of the pressure, about a hundredth of a dense step; memory is that of the box.
 ///
 /// Mathematics: sim/fluid.h, active_cells; cpu::choose_active.
 class ActiveTiles {

@@ -154,6 +154,7 @@ Series taylor_green_series(gpu::Context& context, FluidMethod method, const char
     FluidProblem problem = taylor_green(cells, 0.01, 2);
     problem.parameters.method = method;
     problem.parameters.courant = 0.8;
+    problem.parameters.max_step = 1;  // the Courant number alone sets the step
     gpu::FluidSimulation simulation(context, problem);
     simulation.run_until(0.5, 8);
     simulation.write(problem.initial);

@@ -108,7 +108,8 @@ double contraction(gpu::Context& context, bool is_jacobi, double omega) {
       context, problem, is_jacobi ? gpu::RelaxationMethod::jacobi : gpu::RelaxationMethod::sor,
       omega);
   const double last = largest_magnitude(pressure_residual(problem, answer.pressure));
-  return std::isfinite(last) ? std::min(std::pow(last / first, 1.0 / 256), 10.0) : 10;
+  // Beyond 1.5 it does not matter how far.
+  return std::isfinite(last) ? std::min(std::pow(last / first, 1.0 / 256), 1.5) : 1.5;
 }
 
 const Registration relaxation_map = register_map(
