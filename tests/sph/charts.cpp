@@ -37,19 +37,26 @@ const Registration hydrostatic_chart = register_chart({
     .produce = hydrostatic,
 });
 
-/// Average compression after each thirtieth of a dam break, and the seconds that a simulated second
-/// takes.
-Point run_dam_break(gpu::Context& context, const SphProblem& problem, const std::string& label) {
+/// Average compression over the thirtieths of a dam break against the seconds that a simulated
+/// second takes, and the largest compression of a particle at their ends.
+struct DamBreak {
+  Point point;
+  double largest = 0;
+};
+
+DamBreak run_dam_break(gpu::Context& context, const SphProblem& problem, const std::string& label) {
   gpu::SphStep step(context, problem);
   const auto start = std::chrono::steady_clock::now();
-  double error = 0;
+  double error = 0, largest = 0;
   constexpr int samples = 30;
   for (int k = 1; k <= samples; ++k) {
     gpu::advance(context, step, problem.duration * k / samples, 100000);
-    error += density_error(problem.parameters, step.densities().read()).average / samples;
+    const SphDensityError now = density_error(problem.parameters, step.densities().read());
+    error += now.average / samples;
+    largest = std::max(largest, now.largest);
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  return {seconds.count() / problem.duration, error, label};
+  return {{seconds.count() / problem.duration, error, label}, largest};
 }
 
 ChartData methods(gpu::Context& context) {
@@ -61,11 +68,11 @@ ChartData methods(gpu::Context& context) {
     SphProblem problem = dam;
     problem.parameters.sound_speed *= factor;
     const std::string label = "c=" + short_number(10 * factor) + " v";
-    weak.points.push_back(run_dam_break(context, problem, label));
+    weak.points.push_back(run_dam_break(context, problem, label).point);
     problem.parameters.equation_of_state = SphEquationOfState::linear;
-    linear.points.push_back(run_dam_break(context, problem, label));
+    linear.points.push_back(run_dam_break(context, problem, label).point);
   }
-  double best = 1e30;
+  DamBreak best;
   for (const double tolerance : {2e-3, 5e-4, 1e-4}) {
     SphProblem problem = dam;
     problem.parameters.method = SphMethod::divergence_free;
@@ -73,12 +80,12 @@ ChartData methods(gpu::Context& context) {
     problem.parameters.courant = 0.25;
     problem.parameters.max_step = 2e-3;
     problem.parameters.max_iterations = 40;
-    incompressible.points.push_back(
-        run_dam_break(context, problem, "eta=" + short_number(tolerance)));
-    best = std::min(best, incompressible.points.back().y);
+    best = run_dam_break(context, problem, "eta=" + short_number(tolerance));
+    incompressible.points.push_back(best.point);
   }
   return {.series = {weak, linear, incompressible},
-          .assertions = {{"average density error of the incompressible method", best, 1e-3}},
+          .assertions = {{"average density error of the incompressible method", best.point.y, 1e-3},
+                         {"largest density error of its particles", best.largest, 1e-2}},
           .settings = {{"scene", "dam break, 2D, 20 particles wide"}}};
 }
 
@@ -96,19 +103,16 @@ SphProblem cube_of(double count) {
   return sph_dam_break(3, 1, int(std::lround(std::cbrt(count / 2))));
 }
 
-/// Device seconds by pass, the smallest of some steps.
+/// Device seconds by pass, means of some steps.
 std::map<std::string, double> time_step(gpu::Context& context, gpu::SphStep& step, int repeats) {
-  std::map<std::string, double> best;
+  std::map<std::string, double> sums;
   for (int k = 0; k < repeats; ++k) {
     const gpu::Timing timing =
         context.run([&](gpu::Commands& commands) { step.record(commands, 1e9); });
-    std::map<std::string, double> sums;
-    for (const auto& [name, seconds] : timing.passes) sums[name] += seconds;
-    sums["whole"] = timing.seconds;
-    for (const auto& [name, seconds] : sums)
-      best[name] = best.contains(name) ? std::min(best[name], seconds) : seconds;
+    for (const auto& [name, seconds] : timing.passes) sums[name] += seconds / repeats;
+    sums["whole"] += timing.seconds / repeats;
   }
-  return best;
+  return sums;
 }
 
 ChartData scaling(gpu::Context& context) {
@@ -120,7 +124,9 @@ ChartData scaling(gpu::Context& context) {
     const std::uint64_t before = context.memory_bytes();
     gpu::SphStep step(context, problem);
     bytes = double(context.memory_bytes() - before) / n * 1e6;
-    const auto seconds = time_step(context, step, count < 2e5 ? 5 : 2);
+    // As long for each count, so that what else the machine does meets all alike.
+    time_step(context, step, 1);
+    const auto seconds = time_step(context, step, std::max(2, int(2e6 / n)));
     whole.points.push_back({n, seconds.at("whole")});
     neighbours.points.push_back({n, seconds.at("neighbours")});
     forces.points.push_back({n, seconds.at("forces")});
