@@ -45,6 +45,39 @@ Shade shaded(const SimScene& scene, std::vector<float> values, ColorMapKind kind
   return {std::move(values), color_map(kind, map_size)};
 }
 
+/// Values of particles averaged over cells: pressure differs from one particle to the next more
+/// than from one place to another.
+std::vector<float> averaged(const SimContent& content, const std::vector<float>& values,
+                            float cell) {
+  vec3 low(0), high(0);
+  for (const vec3& p : content.positions) low = glm::min(low, p), high = glm::max(high, p);
+  const ivec3 n = ivec3((high - low) / cell) + 2;
+  const double cells = double(n.x) * n.y * n.z;
+  if (!(cells < 1e8)) return values;  // something has flown far away
+  std::vector<vec2> sums(static_cast<std::size_t>(cells), vec2(0));
+  // Calls with each of the eight cells around a particle and its weight.
+  const auto around = [&](const vec3& p, const auto& visit) {
+    const vec3 at = (p - low) / cell;
+    const ivec3 first = ivec3(at);
+    for (int corner = 0; corner < 8; ++corner) {
+      const ivec3 c = first + ivec3(corner & 1, (corner >> 1) & 1, corner >> 2);
+      const vec3 near = 1.0f - glm::abs(at - vec3(c));
+      visit((std::size_t(c.z) * std::size_t(n.y) + std::size_t(c.y)) * std::size_t(n.x) +
+                std::size_t(c.x),
+            near.x * near.y * near.z);
+    }
+  };
+  for (std::size_t i = 0; i < values.size(); ++i)
+    around(content.positions[i],
+           [&](std::size_t k, float weight) { sums[k] += weight * vec2(values[i], 1); });
+  std::vector<float> result(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    around(content.positions[i], [&](std::size_t k, float weight) {
+      if (sums[k].y > 0) result[i] += weight * sums[k].x / sums[k].y;
+    });
+  return result;
+}
+
 Shade particle_shade(const SimScene& scene, const SimContent& content) {
   const SimColor color = color_of(scene);
   std::vector<float> values(content.positions.size());
@@ -56,6 +89,8 @@ Shade particle_shade(const SimScene& scene, const SimContent& content) {
     else
       values[i] = glm::length(content.velocities[i]);
   }
+  if (color == SimColor::pressure && !content.pressures.empty())
+    values = averaged(content, values, float(2 * scene.spacing));
   return shaded(scene, std::move(values),
                 color == SimColor::speed ? ColorMapKind::water : ColorMapKind::sequential);
 }

@@ -127,6 +127,9 @@ SimContent content_of(const SphParameters& parameters, SphState state,
   content.time = state.time;
   content.positions = std::move(state.positions);
   content.velocities = std::move(state.velocities);
+  content.pressures = std::move(state.pressures);
+  if (parameters.method != SphMethod::weakly_compressible) return content;
+  content.pressures.clear();
   for (const float density : densities)
     content.pressures.push_back(float(cpu::sph_pressure(parameters, double(density))));
   return content;
