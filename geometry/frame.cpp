@@ -145,4 +145,12 @@ Frame make_frame(const Scene& scene, const FrameOptions& options) {
   return frame;
 }
 
+dvec3 view_direction(const Frame& frame, dvec2 place) {
+  if (frame.orthographic) return -frame.backward;
+  const dvec2 clip = 2.0 * place / dvec2(frame.options.width, frame.options.height) - 1.0;
+  const dmat4& p = frame.clip_from_view;
+  const dvec3 in_view{(clip.x + p[2][0]) / p[0][0], (clip.y + p[2][1]) / p[1][1], -1};
+  return glm::normalize(dmat3(glm::inverse(frame.view_from_world)) * in_view);
+}
+
 }  // namespace parity

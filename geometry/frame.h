@@ -71,6 +71,9 @@ constexpr std::size_t most_shadows = 8;
 ///                                logarithmic depth with an orthographic or infinite one.
 Frame make_frame(const Scene& scene, const FrameOptions& options);
 
+/// The way that a place of the picture (px, y down) looks, in the world: unit.
+dvec3 view_direction(const Frame& frame, dvec2 place);
+
 /// A renderer's answer. Linear RGB, alpha 0 where only background is.
 struct Picture {
   Grid<vec4> color;   ///< premultiplied by nothing: what is on top, in W/(m^2 sr)

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
+
+#include "geometry/jitter.h"
 
 namespace parity {
 namespace {
@@ -124,6 +127,26 @@ TEST(MakeFrame, FramesTheFrontOfATriangle) {
       EXPECT_EQ(frame.eye.z > 0, mirror > 0 || double_sided);
       EXPECT_GT(frame.eye.x, 0);
     }
+}
+
+TEST(ViewDirection, IsWhereThePlaceIsSeen) {
+  Scene scene;
+  scene.cameras.emplace_back();
+  Node node;
+  node.camera = 0;
+  node.parent_from_node = glm::translate(dmat4(1.0), dvec3(1, 2, 3)) *
+                          glm::rotate(dmat4(1.0), 0.7, glm::normalize(dvec3(1, -2, 0.5)));
+  scene.nodes.push_back(node);
+  const Frame frame = shifted(make_frame(scene, {.width = 64, .height = 48}), {0.3, -0.4});
+  for (const dvec2 place : {dvec2(0, 0), dvec2(64, 48), dvec2(20.5, 3.5), dvec2(50, 40)}) {
+    const dvec3 direction = view_direction(frame, place);
+    EXPECT_NEAR(glm::length(direction), 1, 1e-15);
+    const dvec4 clip =
+        frame.clip_from_view * frame.view_from_world * dvec4(frame.eye + 5.0 * direction, 1);
+    EXPECT_GT(clip.w, 0);
+    EXPECT_NEAR((clip.x / clip.w + 1) * 32, place.x, 1e-12);
+    EXPECT_NEAR((clip.y / clip.w + 1) * 24, place.y, 1e-12);
+  }
 }
 
 TEST(MakeFrame, RefusesLogarithmicDepthWithoutAPerspectiveOrAFarPlane) {

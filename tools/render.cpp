@@ -207,15 +207,6 @@ std::optional<Surroundings> load_environment(const std::string& text, bool is_sh
                       is_shown ? environment_map(picture, backdrop_side) : EnvironmentMap{}};
 }
 
-/// The way a pixel's centre looks, in the world.
-dvec3 view_direction(const Frame& frame, int x, int y) {
-  if (frame.orthographic) return -frame.backward;
-  const double u = 2 * (x + 0.5) / frame.options.width - 1;
-  const double v = 1 - 2 * (y + 0.5) / frame.options.height;
-  const dvec3 in_view{u / frame.clip_from_view[0][0], v / frame.clip_from_view[1][1], -1};
-  return glm::transpose(dmat3(frame.view_from_world)) * in_view;
-}
-
 /// Puts the environment behind all that is not opaque.
 void show_environment(const EnvironmentMap& map, const Frame& frame, Picture& picture) {
 #pragma omp parallel for
@@ -223,7 +214,7 @@ void show_environment(const EnvironmentMap& map, const Frame& frame, Picture& pi
     for (int x = 0; x < picture.color.width(); ++x) {
       vec4& c = picture.color(x, y);
       if (c.w >= 1) continue;
-      const vec3 seen = radiance_toward(map, glm::normalize(view_direction(frame, x, y)));
+      const vec3 seen = radiance_toward(map, view_direction(frame, {x + 0.5, y + 0.5}));
       c = vec4(vec3(c) + seen * (1 - c.w), 1);
     }
 }
