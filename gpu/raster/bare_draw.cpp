@@ -29,21 +29,25 @@ BareDraw::BareDraw(Context& context, const parity::Primitive& primitive, int wid
       normals_(context, primitive.normals),
       indices_(context, primitive.indices),
       albedo_table_(context, parity::albedo_table().values()),
+      material_(context, 1),
       color_words_(context, 2 * std::size_t(width) * std::size_t(height)),
       depth_values_(context, std::size_t(width) * std::size_t(height)) {}
 
 Timing BareDraw::draw(const Frame& frame, const Material& material) {
   const PlacedLight& light = frame.lights.at(0);
+  material_.write(
+      std::vector<BareMaterial>{{.base_color = vec3(material.base_color),
+                                 .ambient = frame.ambient,
+                                 .irradiance = light.light.color * light.light.intensity}});
   const BareArgs args{.clip_from_object = frame.draws.at(0).clip_from_object,
                       .positions = positions_,
                       .normals = normals_,
+                      .material = material_,
+                      .albedo_table = albedo_table_,
                       .eye = vec3(frame.eye),
-                      .ambient = frame.ambient.x,
-                      .to_light = vec3(-light.direction),
-                      .irradiance = light.light.intensity,
-                      .base_color = material.base_color.x,
                       .roughness = material.roughness,
-                      .albedo_table = albedo_table_};
+                      .to_light = vec3(-light.direction),
+                      .padding = 0};
   const IndexedDraw all{.index_count = std::uint32_t(indices_.count())};
   return context_.run([&](Commands& commands) {
     commands.pass("draw");

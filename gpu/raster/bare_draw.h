@@ -16,9 +16,9 @@ class BareDraw {
   BareDraw(Context& context, const parity::Primitive& primitive, int width, int height);
 
   /// @param frame  perspective, reverse-Z, one sample, of a scene whose only draw is the mesh, in
-  ///               the place where it was made, under one white directional light and a grey
+  ///               the place where it was made, under one directional light and a uniform
   ///               environment.
-  /// @param material  grey, no metal, without emission and textures.
+  /// @param material  no metal, without emission and textures.
   /// @return       passes: `draw`, `readback`.
   Timing draw(const Frame& frame, const Material& material);
 
@@ -34,6 +34,7 @@ class BareDraw {
   Buffer<vec3> normals_;
   Buffer<std::uint32_t> indices_;
   Buffer<vec4> albedo_table_;
+  Buffer<BareMaterial> material_;
   Buffer<std::uint32_t> color_words_;
   Buffer<float> depth_values_;
 };

@@ -32,6 +32,7 @@ std::vector<Specialization> shade_constants(const SceneBuffers& scene, RenderOpt
   constants.push_back({10, std::uint32_t(frame.options.samples)});
   constants.push_back({11, std::uint32_t(frame.options.depth)});
   constants.push_back({22, scene.features().layers});
+  constants.push_back({25, scene.features().metals});
   constants.push_back({23, frame.environment.has_value()});
   constants.push_back({24, !frame.shadows.empty()});
   return constants;

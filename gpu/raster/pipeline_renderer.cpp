@@ -65,7 +65,7 @@ Grid<T> grid(const Frame& frame, std::vector<T> values) {
 std::vector<Specialization> general_specializations(std::vector<Specialization> all) {
   std::erase_if(all, [](const Specialization& s) {
     return s.id < 4 || s.id == 7 || (s.id > 8 && s.id < 14) || s.id == 15 || s.id == 22 ||
-           s.id == 24;
+           s.id == 24 || s.id == 25;
   });
   return all;
 }
@@ -122,6 +122,7 @@ PipelineRenderer::Key PipelineRenderer::key_of(const Frame& frame, const SceneFr
           is_plain,
           frame.environment.has_value(),
           scene_.has_layers(draw.material),
+          scene_.is_metallic(draw.material),
           data.has_shadows()};
 }
 
@@ -147,6 +148,7 @@ const RasterPipeline<SceneArgs>& PipelineRenderer::pipeline(const Key& key) {
   options.specializations.push_back({14, !key.blended});
   options.specializations.push_back({15, key.has_placed_lights});
   options.specializations.push_back({22, key.layers});
+  options.specializations.push_back({25, key.metallic});
   options.specializations.push_back({23, key.environment});
   options.specializations.push_back({24, key.shadows});
   if (options_.general) options.specializations = general_specializations(options.specializations);

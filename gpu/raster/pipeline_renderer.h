@@ -46,6 +46,7 @@ class PipelineRenderer {
     bool is_plain = false;  ///< no attribute but positions and normals
     bool environment = false;
     bool layers = false;  ///< the material has extensions
+    bool metallic = false;
     bool shadows = false;
     auto operator<=>(const Key&) const = default;
   };

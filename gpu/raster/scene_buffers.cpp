@@ -198,6 +198,8 @@ void SceneBuffers::add_material(Context& context, const Scene& scene, const Mate
   double_sided_.push_back(material.double_sided);
   has_layers_.push_back(!material.unlit && is_layered(material));
   features_.layers |= has_layers_.back();
+  is_metallic_.push_back(!material.unlit && material.metallic > 0);
+  features_.metals |= is_metallic_.back();
 }
 
 const SceneBuffers::Texels& SceneBuffers::texels(Context& context, const Scene& scene, int image,

@@ -18,6 +18,7 @@ struct SceneFeatures {
   bool textures = false;
   bool normal_maps = false;  ///< or what else needs tangents
   bool layers = false;       ///< some material has extensions
+  bool metals = false;       ///< some material is metallic
   bool lit = false;          ///< some material is not unlit
   bool unlit = false;        ///< some material is, or there are points or lines
   bool colors = false;
@@ -55,6 +56,7 @@ class SceneBuffers {
   AlphaMode alpha_mode(int material) const { return alpha_modes_[number(material)]; }
   bool double_sided(int material) const { return double_sided_[number(material)]; }
   bool has_layers(int material) const { return has_layers_[number(material)]; }
+  bool is_metallic(int material) const { return is_metallic_[number(material)]; }
   std::uint32_t number(int material) const {
     return material < 0 ? std::uint32_t(alpha_modes_.size() - 1) : std::uint32_t(material);
   }
@@ -94,6 +96,7 @@ class SceneBuffers {
   std::vector<AlphaMode> alpha_modes_;     ///< by material, the default last
   std::vector<bool> double_sided_;
   std::vector<bool> has_layers_;
+  std::vector<bool> is_metallic_;
   Buffer<SceneMaterial> materials_;
   Buffer<SceneTexture> textures_;
   Buffer<SceneLayers> layers_;

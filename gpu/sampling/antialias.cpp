@@ -53,6 +53,7 @@ std::vector<Specialization> refine_constants(const SceneFeatures& features, Refi
   constants.push_back({11, std::uint32_t(key.depth)});
   constants.push_back({12, key.blends});
   constants.push_back({22, features.layers});
+  constants.push_back({25, features.metals});
   constants.push_back({23, key.environment});
   constants.push_back({24, key.shadows});
   return constants;

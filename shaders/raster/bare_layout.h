@@ -7,17 +7,23 @@
 namespace parity {
 #endif
 
+struct BareMaterial {
+  vec3 base_color;
+  vec3 ambient;     // radiance from all around
+  vec3 irradiance;  // of a surface that faces the light
+};
+REF_TYPE(BareMaterial, 4)
+
 struct BareArgs {
   mat4 clip_from_object;
   REF(vec3) positions;
   REF(vec3) normals;
-  vec3 eye;
-  float ambient;   // radiance, of any channel
-  vec3 to_light;   // unit
-  float irradiance;  // of a surface that faces the light
-  float base_color;  // of any channel
-  float roughness;
+  REF(BareMaterial) material;
   REF(vec4) albedo_table;
+  vec3 eye;
+  float roughness;
+  vec3 to_light;  // unit
+  float padding;
 };
 REF_TYPE(BareArgs, 8)
 

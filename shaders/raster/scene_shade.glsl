@@ -137,7 +137,7 @@ vec3 mapped_normal(TangentFrame frame, vec3 texel, float scale) {
 // grazing angles are 0.04 and 1 but for extensions.
 Microsurface base_surface(SceneMaterial material, Texels texels, vec3 base, vec3 dielectric,
                           float dielectric_grazing) {
-  const float metallic = material.metallic * texels.metallic_roughness.b;
+  const float metallic = has_metal ? material.metallic * texels.metallic_roughness.b : 0.0;
   Microsurface m;
   m.diffuse = base * (1.0 - metallic);
   m.reflectance = dielectric * (1.0 - metallic) + base * metallic;

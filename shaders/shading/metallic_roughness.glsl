@@ -6,6 +6,8 @@
 #include "shading/microfacet.glsl"
 #include "shading/multi_scatter.glsl"
 
+layout(constant_id = 25) const bool has_metal = true;  // of any material
+
 struct Microsurface {
   vec3 diffuse;      // albedo of the diffuse part, c_diff
   vec3 reflectance;  // at normal incidence, F0
@@ -34,7 +36,7 @@ float microfacet_lobe(vec3 n, vec3 h, float n_l, float n_v, float roughness) {
 vec3 base_reflection(Microsurface m, float lobe, float v_h, float n_l, ref_vec4 albedo_table) {
   const vec3 f = m.reflectance + (m.grazing - m.reflectance) * schlick_weight(v_h);
   vec3 sum = (1.0 - f) * m.diffuse * (1.0 / pi) + f * lobe;
-  if (m.bounces > 0.0)
+  if (has_metal && m.bounces > 0.0)
     sum += m.bounces *
            multi_scatter(albedo_at(albedo_table, n_l, m.roughness), m.albedo, m.reflectance, m.grazing);
   return sum;
