@@ -31,7 +31,6 @@ struct Range {
   double low, high;
 };
 constexpr Range any_number{-1e9, 1e9};
-constexpr Range not_negative{0, 1e9};
 constexpr Range positive{1e-9, 1e9};
 
 /// A value and its place in the file.
