@@ -16,6 +16,7 @@
 #include "cpu_reference/sampling/temporal.h"
 #include "geometry/color.h"
 #include "geometry/random.h"
+#include "gpu/raster/renderer.h"
 #include "gpu/sampling/area_coverage.h"
 #include "gpu/sampling/reconstruct.h"
 #include "gpu/sampling/spectrum.h"
@@ -436,6 +437,7 @@ Scene crossing_sheets() {
 }
 
 TEST(Antialiasing, MsaaTestsDepthAtEachSampleNotCoverageOnly) {
+  if (!gpu::can_render(test_context().info())) GTEST_SKIP() << "skipped: the device cannot render";
   const Scene scene = crossing_sheets();
   const Frame frame =
       make_frame(scene, {.width = 32, .height = 32, .background = {0.5f, 0.5f, 0.5f, 1}});
