@@ -16,13 +16,11 @@
 #include "cpu_reference/sampling/temporal.h"
 #include "geometry/color.h"
 #include "geometry/random.h"
-#include "gpu/raster/renderer.h"
 #include "gpu/sampling/area_coverage.h"
 #include "gpu/sampling/reconstruct.h"
 #include "gpu/sampling/spectrum.h"
 #include "gpu/sampling/temporal.h"
 #include "tests/gpu_context.h"
-#include "tools/antialias.h"
 
 namespace parity {
 namespace {
@@ -355,138 +353,6 @@ TEST(Temporal, AHistoryThatDoesNotFitIsGivenUp) {
                           Grid<vec2>(3, 3, vec2(0))};
   EXPECT_EQ(cpu::accumulate(step)(1, 1), dvec4(0, 0, 0, 1));
   EXPECT_EQ(gpu::accumulate(test_context(), step)(1, 1), vec4(0, 0, 0, 1));
-}
-
-TEST(Antialiasing, ModesAreReadAndRefused) {
-  using tools::parse_antialiasing;
-  for (const char* text :
-       {"none", "msaa2", "msaa8", "ssaa4", "ssaa64", "accumulate7", "adaptive", "auto"})
-    EXPECT_EQ(name_of(parse_antialiasing(text)), text);
-  for (const char* text : {"", "msaa", "msaa3", "ssaa8", "ssaa", "accumulate0", "accumulate9999",
-                           "accumulate4x", "adaptive2", "fxaa"})
-    EXPECT_THROW(parse_antialiasing(text), std::invalid_argument) << text;
-}
-
-/// A white quad without light, turned in the picture's plane, before black.
-Scene turned_quad() {
-  Scene scene;
-  Material white;
-  white.unlit = true;
-  white.double_sided = true;
-  scene.materials = {white};
-  Primitive quad;
-  for (const vec2 p : {vec2(-1.1f, -0.8f), vec2(0.9f, -1.2f), vec2(1.2f, 0.7f), vec2(-0.8f, 1.1f)})
-    quad.positions.push_back(vec3(p, 0));
-  quad.indices = {0, 1, 2, 0, 2, 3};
-  quad.material = 0;
-  scene.meshes = {{"quad", {quad}}};
-  Node node;
-  node.mesh = 0;
-  scene.nodes.push_back(node);
-  return scene;
-}
-
-double edge_error(const Picture& picture, const Grid<vec4>& truth) {
-  double sum = 0;
-  for (std::size_t i = 0; i < truth.size(); ++i)
-    sum += std::pow(double(picture.color.values()[i].x) - double(truth.values()[i].x), 2);
-  return std::sqrt(sum);
-}
-
-TEST(Antialiasing, MoreSamplesComeCloserToTheMeanOfManyFrames) {
-  const Scene scene = turned_quad();
-  const Frame frame = make_frame(scene, {.width = 40, .height = 40, .background = {0, 0, 0, 1}});
-  gpu::Context& context = test_context();
-  const auto error = [&, truth =
-                             tools::render_antialiased(context, scene, frame,
-                                                       tools::parse_antialiasing("accumulate64"), 0)
-                                 .picture.color](const char* mode) {
-    return edge_error(
-        tools::render_antialiased(context, scene, frame, tools::parse_antialiasing(mode), 0)
-            .picture,
-        truth);
-  };
-  const double none = error("none");
-  EXPECT_GT(none, 1);  // about 80 pixels at the edges are wrong by 0.29
-  EXPECT_LT(error("msaa4"), 0.6 * none);
-  EXPECT_LT(error("ssaa16"), 0.35 * none);
-  EXPECT_LT(error("accumulate16"), 0.35 * none);
-  EXPECT_LT(error("adaptive"), 0.35 * none);
-}
-
-/// A white and a black sheet that go through each other along a slanted line.
-Scene crossing_sheets() {
-  Scene scene;
-  for (const float side : {1.0f, -1.0f}) {
-    Material material;
-    material.unlit = true;
-    material.double_sided = true;
-    material.base_color = vec4(vec3(side > 0 ? 1.0f : 0.0f), 1);
-    scene.materials.push_back(material);
-    Primitive sheet;
-    for (const vec2 p : {vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, 1)})
-      sheet.positions.push_back(vec3(p, side * (0.4f * p.x + 0.15f * p.y)));
-    sheet.indices = {0, 1, 2, 0, 2, 3};
-    sheet.material = int(scene.meshes.size());
-    Node node;
-    node.mesh = sheet.material;
-    scene.nodes.push_back(node);
-    scene.meshes.push_back({"sheet", {sheet}});
-  }
-  return scene;
-}
-
-TEST(Antialiasing, MsaaTestsDepthAtEachSampleNotCoverageOnly) {
-  if (!gpu::can_render(test_context().info())) GTEST_SKIP() << "skipped: the device cannot render";
-  const Scene scene = crossing_sheets();
-  const Frame frame =
-      make_frame(scene, {.width = 32, .height = 32, .background = {0.5f, 0.5f, 0.5f, 1}});
-  const auto render = [&](const char* mode) {
-    return tools::render_antialiased(test_context(), scene, frame, tools::parse_antialiasing(mode),
-                                     0)
-        .picture.color;
-  };
-  const Grid<vec4> truth = render("accumulate64");
-  // In the middle both sheets cover every sample: depth alone decides. Four samples of a straight
-  // border are at most 0.25 wrong, 64 frames 0.05.
-  const auto antialiases_crossings = [&](const Grid<vec4>& picture) {
-    for (int y = 12; y < 20; ++y)
-      for (int x = 12; x < 20; ++x)
-        if (std::abs(picture(x, y).x - truth(x, y).x) > 0.3f) return false;
-    return true;
-  };
-  EXPECT_TRUE(antialiases_crossings(render("msaa4")));
-  EXPECT_TRUE(antialiases_crossings(render("msaa8")));
-  // Notes 1.8, read literally: subsamples for coverage only, one depth a pixel. Where everything is
-  // covered that is a picture of one sample.
-  EXPECT_FALSE(antialiases_crossings(render("none")));
-}
-
-TEST(Antialiasing, BothSidesAccumulateTheSamePicture) {
-  const Scene scene = turned_quad();
-  const Frame frame = make_frame(scene, {.width = 24, .height = 24, .background = {0, 0, 0, 1}});
-  const tools::Antialiasing mode = tools::parse_antialiasing("accumulate4");
-  const Picture device = tools::render_antialiased(test_context(), scene, frame, mode, 0).picture;
-  const Picture host = tools::render_antialiased(scene, frame, mode).picture;
-  // White and black are exact in half precision; a quarter's weight too.
-  EXPECT_EQ(device.color, host.color);
-}
-
-TEST(Antialiasing, AutoTakesTheFastestThatMeetsTheError) {
-  const Scene scene = turned_quad();
-  const Frame frame = make_frame(scene, {.width = 24, .height = 24, .background = {0, 0, 0, 1}});
-  const auto choose = [&](double max_error) {
-    return tools::render_antialiased(
-        test_context(), scene, frame,
-        {.kind = tools::Antialiasing::Kind::automatic, .max_error = max_error}, 0);
-  };
-  const tools::Antialiased loose = choose(1);
-  ASSERT_TRUE(loose.meets);
-  const auto chosen = std::ranges::find(loose.trials, loose.mode, &tools::AntialiasingTrial::mode);
-  ASSERT_NE(chosen, loose.trials.end());
-  for (const tools::AntialiasingTrial& other : loose.trials)
-    EXPECT_LE(chosen->seconds, other.seconds);
-  EXPECT_FALSE(choose(0).meets);
 }
 
 }  // namespace
