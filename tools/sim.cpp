@@ -9,6 +9,7 @@
 #include "geometry/input_error.h"
 #include "gpu/core/context.h"
 #include "sim/scene_io.h"
+#include "tools/bad_option.h"
 #include "tools/sim_job.h"
 #include "tools/verb.h"
 
@@ -34,12 +35,6 @@ struct SimArguments {
   bool quiet = false;
   bool verbose = false;
 };
-
-std::invalid_argument bad_option(const char* option, const std::string& value,
-                                 const char* expected) {
-  return std::invalid_argument(std::string("--") + option + " is '" + value + "', must be " +
-                               expected);
-}
 
 ivec2 parse_pair(const char* option, const std::string& text, const char* form, int least, int most,
                  const char* expected) {
