@@ -299,107 +299,75 @@ const Registration cost_chart = register_chart({
 
 constexpr int map_steps = 150;
 
-const Registration sound_map = register_map({
-    .name = "sph/stability_sound",
-    .title = "Speed after 150 steps of a box of particles over that at the start",
-    .x = {.name = "sound speed",
-          .unit = "m/s",
-          .low = 1,
-          .high = 100,
-          .standard = 10,
-          .logarithmic = true},
-    .y = {.name = "step",
-          .unit = "s",
-          .low = 1e-4,
-          .high = 1,
-          .standard = 1e-2,
-          .logarithmic = true},
-    .value_label = "growth of speed",
-    .border = 100,
-    .columns = 14,
-    .rows = 14,
-    .value =
-        [](gpu::Context& context, double sound, double step) {
-          SphProblem problem = sph_test::closed_box(8, sound, 0.005 * sound);
-          problem.parameters.fixed_step = step;
-          return sph_test::speed_growth(context, problem, map_steps);
-        },
-    .theory = {{"(omega dt)^2 + 2 g dt = 4",
-                [](double sound) {
-                  return cpu::sph_stable_step(
-                      sph_test::closed_box(8, sound, 0.005 * sound).parameters);
-                }}},
-});
+/// Growth of the speed of a box of particles over steps and one parameter.
+Map stability_map(const char* name, const char* title, Axis x,
+                  std::function<SphProblem(double)> box, std::vector<TheoryLine> theory) {
+  return {.name = name,
+          .title = title,
+          .x = std::move(x),
+          .y = {.name = "step",
+                .unit = "s",
+                .low = 1e-4,
+                .high = 1,
+                .standard = 1e-2,
+                .logarithmic = true},
+          .value_label = "growth of speed",
+          .border = 100,
+          .columns = 14,
+          .rows = 14,
+          .value =
+              [box = std::move(box)](gpu::Context& context, double value, double step) {
+                SphProblem problem = box(value);
+                problem.parameters.fixed_step = step;
+                return sph_test::speed_growth(context, problem, map_steps);
+              },
+          .theory = std::move(theory)};
+}
 
-const Registration viscosity_map = register_map({
-    .name = "sph/stability_viscosity",
-    .title = "Speed after 150 steps of a viscous box of particles over that at the start",
-    .x = {.name = "viscosity",
-          .unit = "m^2/s",
-          .low = 1e-3,
-          .high = 10,
-          .standard = 0.1,
-          .logarithmic = true},
-    .y = {.name = "step",
-          .unit = "s",
-          .low = 1e-4,
-          .high = 1,
-          .standard = 1e-2,
-          .logarithmic = true},
-    .value_label = "growth of speed",
-    .border = 100,
-    .columns = 14,
-    .rows = 14,
-    .value =
-        [](gpu::Context& context, double viscosity, double step) {
-          SphProblem problem = sph_test::closed_box(8, 10, viscosity);
-          problem.parameters.fixed_step = step;
-          return sph_test::speed_growth(context, problem, map_steps);
-        },
-    .theory = {{"(omega dt)^2 + 2 g dt = 4",
-                [](double viscosity) {
-                  return cpu::sph_stable_step(sph_test::closed_box(8, 10, viscosity).parameters);
-                }}},
-});
+const Axis viscosity_axis{.name = "viscosity",
+                          .unit = "m^2/s",
+                          .low = 1e-3,
+                          .high = 10,
+                          .standard = 0.1,
+                          .logarithmic = true};
 
-const Registration implicit_map = register_map({
-    .name = "sph/stability_implicit",
-    .title = "The same box with implicit viscosity: speed after 150 steps over that at the start",
-    .x = {.name = "viscosity",
-          .unit = "m^2/s",
-          .low = 1e-3,
-          .high = 10,
-          .standard = 0.1,
-          .logarithmic = true},
-    .y = {.name = "step",
-          .unit = "s",
-          .low = 1e-4,
-          .high = 1,
-          .standard = 1e-2,
-          .logarithmic = true},
-    .value_label = "growth of speed",
-    .border = 100,
-    .columns = 14,
-    .rows = 14,
-    .value =
-        [](gpu::Context& context, double viscosity, double step) {
-          SphProblem problem = sph_test::closed_box(8, 10, viscosity);
-          problem.parameters.fixed_step = step;
-          problem.parameters.implicit_viscosity = true;
-          problem.parameters.max_iterations = 30;
-          return sph_test::speed_growth(context, problem, map_steps);
-        },
-    .theory = {{"implicit: (omega dt)^2 = 4 + 2 g dt",
-                [](double viscosity) {
-                  SphParameters p = sph_test::closed_box(8, 10, viscosity).parameters;
-                  p.implicit_viscosity = true;
-                  return cpu::sph_stable_step(p);
-                }},
-               {"explicit: (omega dt)^2 + 2 g dt = 4",
-                [](double viscosity) {
-                  return cpu::sph_stable_step(sph_test::closed_box(8, 10, viscosity).parameters);
-                }}},
-});
+SphProblem sounding_box(double sound) { return sph_test::closed_box(8, sound, 0.005 * sound); }
+
+SphProblem viscous_box(double viscosity) { return sph_test::closed_box(8, 10, viscosity); }
+
+SphProblem implicit_box(double viscosity) {
+  SphProblem problem = viscous_box(viscosity);
+  problem.parameters.implicit_viscosity = true;
+  problem.parameters.max_iterations = 30;
+  return problem;
+}
+
+/// The largest stable step of a box, by theory.
+std::function<double(double)> stable_step_of(SphProblem (*box)(double)) {
+  return [box](double x) { return cpu::sph_stable_step(box(x).parameters); };
+}
+
+const Registration sound_map = register_map(stability_map(
+    "sph/stability_sound", "Speed after 150 steps of a box of particles over that at the start",
+    {.name = "sound speed",
+     .unit = "m/s",
+     .low = 1,
+     .high = 100,
+     .standard = 10,
+     .logarithmic = true},
+    sounding_box, {{"(omega dt)^2 + 2 g dt = 4", stable_step_of(sounding_box)}}));
+
+const Registration viscosity_map = register_map(stability_map(
+    "sph/stability_viscosity",
+    "Speed after 150 steps of a viscous box of particles over that at the start", viscosity_axis,
+    viscous_box, {{"(omega dt)^2 + 2 g dt = 4", stable_step_of(viscous_box)}}));
+
+const Registration implicit_map = register_map(stability_map(
+    "sph/stability_implicit",
+    "The same box with implicit viscosity: speed after 150 steps over that at the start",
+    viscosity_axis, implicit_box,
+    {{"implicit: (omega dt)^2 = 4 + 2 g dt", stable_step_of(implicit_box)},
+     {"explicit: (omega dt)^2 + 2 g dt = 4", stable_step_of(viscous_box)}}));
 
 }  // namespace
 }  // namespace parity
