@@ -45,6 +45,20 @@ inline double states_apart(const FluidState& got, const FluidState& want) {
   return largest;
 }
 
+/// Particles in their own order: the worst of places in cells and velocities in m/s.
+inline double particles_apart(const FluidProblem& problem, const FluidState& got,
+                              const FluidState& want) {
+  double largest = 0;
+  for (std::size_t i = 0; i < want.particles.count(); ++i) {
+    const double moved =
+        double(glm::distance(got.particles.positions[i], want.particles.positions[i]));
+    const double speed =
+        double(glm::distance(got.particles.velocities[i], want.particles.velocities[i]));
+    largest = std::max({largest, moved / problem.domain.spacing, speed});
+  }
+  return largest;
+}
+
 /// Random contents; nothing flows through walls, and the two ends of a periodic axis are one.
 inline void fill_randomly(FluidProblem& problem, std::uint64_t seed) {
   Random random(seed, 9);

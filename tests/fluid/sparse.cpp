@@ -60,14 +60,7 @@ Problem sparse_step(const Setting& setting) {
 double distance(const Problem& p, const FluidState& got, const FluidState& want) {
   if (got.active != want.active) return 1e9;
   if (!is_liquid(p.fluid.parameters.method)) return states_apart(got, want);
-  double largest = 0;
-  for (std::size_t i = 0; i < want.particles.count(); ++i)
-    largest = std::max(
-        {largest,
-         double(glm::distance(got.particles.positions[i], want.particles.positions[i])) /
-             p.fluid.domain.spacing,
-         double(glm::distance(got.particles.velocities[i], want.particles.velocities[i]))});
-  return largest;
+  return particles_apart(p.fluid, got, want);
 }
 
 const Registration sparse_registration = register_stage<Problem, FluidState>(

@@ -172,19 +172,6 @@ const Registration project_registration = register_stage<Problem, FluidState>(
      .error_unit = "1/s",
      .chart_axes = {"side"}});
 
-/// Particles in their own order: the worst of places in cells and velocities in m/s.
-double particles_apart(const Problem& p, const FluidState& got, const FluidState& want) {
-  double largest = 0;
-  for (std::size_t i = 0; i < want.particles.count(); ++i) {
-    const double moved =
-        double(glm::distance(got.particles.positions[i], want.particles.positions[i]));
-    const double speed =
-        double(glm::distance(got.particles.velocities[i], want.particles.velocities[i]));
-    largest = std::max({largest, moved / p.fluid.domain.spacing, speed});
-  }
-  return largest;
-}
-
 const Registration liquid_registration = register_stage<Problem, FluidState>(
     {.name = "fluid/liquid",
      .title = "One step of a liquid of particles: FLIP and APIC",
@@ -226,7 +213,8 @@ const Registration liquid_registration = register_stage<Problem, FluidState>(
                      [](gpu::Context& context, const Problem& p) {
                        return gpu::step(context, p.fluid, p.fluid.initial, p.seconds);
                      }}},
-     .distance = particles_apart,
+     .distance = [](const Problem& p, const FluidState& got,
+                    const FluidState& want) { return particles_apart(p.fluid, got, want); },
      .tolerance =
          [](const Problem& p) {
            const double length = p.fluid.domain.spacing * p.fluid.domain.cells.x;
