@@ -91,7 +91,7 @@ TEST(AdaptiveAntialiasing, LeavesALinearColourAsItIs) {
   const Frame frame = scene.frame(16);
   gpu::Antialiaser antialiaser(test_context(), scene.scene);
   const Grid<vec4> plain = gpu::render(test_context(), scene.scene, frame).color;
-  for (const float contrast : {refine_all, refine_none}) {
+  for (const float contrast : {refine_all, refine_none}) {  // both sides are stored as halves
     const Grid<vec4> got = antialiaser.adaptive(frame, contrast, 1).color;
     for (int y = 1; y < 15; ++y)
       for (int x = 1; x < 15; ++x) expect_color(got(x, y), dvec4(plain(x, y)), 2 * half_step);
