@@ -92,11 +92,12 @@ TEST(Spectrum, RefusesWhatItCannotTransform) {
   EXPECT_THROW(gpu::fourier_transform(test_context(), {}, false), std::invalid_argument);
 }
 
-double measured_frequency(double f) {
+cpu::SpectrumPeak measured_peak(double f) {
   const auto peaks =
       cpu::spectrum_peaks(cpu::fourier_transform(cpu::windowed(grating(256, 1, {f, 0})), false), 1);
-  return peaks.empty() ? 0 : peaks[0].frequency.x;
+  return peaks.empty() ? cpu::SpectrumPeak{} : peaks[0];
 }
+double measured_frequency(double f) { return measured_peak(f).frequency.x; }
 
 /// Does a rule that says whether frequency f, sampled at 1, aliases, say what samples show? Those
 /// nearer to 0 or half the rate than 4 bins cannot be told.
@@ -124,6 +125,8 @@ TEST(Aliasing, ACosineComesBackAtTheDistanceToAMultipleOfTheRate) {
     // The other, negative frequency is as far as twice this: within 4 bins it moves the peak.
     if (nearest < 4.0 / 256 || nearest > 0.5 - 4.0 / 256) continue;
     EXPECT_NEAR(measured_frequency(f), nearest, 0.02 / 256) << f;
+    // A Gaussian's logarithm is a parabola; the window's is cut at exp(-8), three bins add up.
+    EXPECT_NEAR(measured_peak(f).amplitude, 0.5, 0.5 * 3 * std::exp(-8.0)) << f;
   }
   EXPECT_EQ(cpu::windowed(grating(256, 1, {3, 0})), Grid<dvec2>(256, 1));  // constant: nothing left
 }

@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
   parity::tools::add_diff_verb(app, exit_code);
   parity::tools::add_mesh_verb(app, exit_code);
   parity::tools::add_sim_verb(app, exit_code);
+  parity::tools::add_spectrum_verb(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -18,5 +18,6 @@ void add_faults_verb(CLI::App& app, int& exit_code);
 void add_diff_verb(CLI::App& app, int& exit_code);
 void add_mesh_verb(CLI::App& app, int& exit_code);
 void add_sim_verb(CLI::App& app, int& exit_code);
+void add_spectrum_verb(CLI::App& app, int& exit_code);
 
 }  // namespace parity::tools

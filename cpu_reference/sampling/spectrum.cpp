@@ -85,10 +85,18 @@ Grid<dvec2> transform_lines(const Grid<dvec2>& values, bool inverse,
   return result;
 }
 
-/// Place of the top of the parabola through three values, from the middle one, in (-1/2, 1/2).
-double parabola_top(double before, double at, double after) {
+struct Top {
+  double place = 0;  ///< from the middle value, in [-1/2, 1/2]
+  double rise = 0;   ///< above the middle value
+};
+
+/// The top of the parabola through three values.
+Top parabola_top(double before, double at, double after) {
   const double bend = before - 2 * at + after;
-  return bend < 0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
+  if (!(bend < 0)) return {};
+  const double place = std::clamp(0.5 * (before - after) / bend, -0.5, 0.5);
+  const double most = std::log(0.5 * std::numbers::pi);  // without a window, half a bin away
+  return {place, std::min(0.25 * (after - before) * place, most)};
 }
 
 }  // namespace
@@ -140,9 +148,12 @@ std::vector<SpectrumPeak> spectrum_peaks(const Grid<dvec2>& spectrum, int count)
       const auto logarithm = [&](int du, int dv) {
         return std::log(magnitude(u + du, v + dv) + 1e-12 * here);
       };
-      const double x = w > 2 ? parabola_top(logarithm(-1, 0), logarithm(0, 0), logarithm(1, 0)) : 0;
-      const double y = h > 2 ? parabola_top(logarithm(0, -1), logarithm(0, 0), logarithm(0, 1)) : 0;
-      peaks.push_back({{(u + x) / w, (v + y) / h}, 2 * here / double(spectrum.size())});
+      const Top x =
+          w > 2 ? parabola_top(logarithm(-1, 0), logarithm(0, 0), logarithm(1, 0)) : Top{};
+      const Top y =
+          h > 2 ? parabola_top(logarithm(0, -1), logarithm(0, 0), logarithm(0, 1)) : Top{};
+      peaks.push_back({{(u + x.place) / w, (v + y.place) / h},
+                       2 * here * std::exp(x.rise + y.rise) / double(spectrum.size())});
     }
   std::ranges::stable_sort(peaks, std::greater{}, &SpectrumPeak::amplitude);
   if (peaks.size() > std::size_t(std::max(count, 0))) peaks.resize(std::size_t(count));

@@ -31,8 +31,8 @@ struct SpectrumPeak {
 };
 
 /// The strongest `count` peaks of a spectrum (of a real picture), strongest first: frequencies
-/// whose magnitude no neighbour exceeds. Frequency 0 does not count. The place between bins is the
-/// parabola's through the logarithms of the peak and its neighbours.
+/// whose magnitude no neighbour exceeds. Frequency 0 does not count. The place between bins and
+/// the height there are the parabola's through the logarithms of the peak and its neighbours.
 std::vector<SpectrumPeak> spectrum_peaks(const Grid<dvec2>& spectrum, int count);
 
 /// What a sinusoid of frequency `f` looks like in samples at `rate` a unit: the frequency

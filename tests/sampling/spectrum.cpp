@@ -1,6 +1,9 @@
 #include "cpu_reference/sampling/spectrum.h"
 
+#include <fftw3.h>
+
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "geometry/random.h"
@@ -33,6 +36,20 @@ Grid<dvec2> in_double(const Grid<vec2>& values) {
   Grid<dvec2> result{values.width(), values.height()};
   for (std::size_t i = 0; i < values.size(); ++i) result.values()[i] = dvec2(values.values()[i]);
   return result;
+}
+
+/// A third opinion. FFTW's inverse is not divided by the number of pixels.
+Grid<dvec2> by_library(const SpectrumProblem& p) {
+  Grid<dvec2> values = in_double(p.values);
+  auto* data = reinterpret_cast<fftw_complex*>(values.values().data());
+  const std::unique_ptr<fftw_plan_s, void (*)(fftw_plan)> plan{
+      fftw_plan_dft_2d(values.height(), values.width(), data, data,
+                       p.inverse ? FFTW_BACKWARD : FFTW_FORWARD, FFTW_ESTIMATE),
+      fftw_destroy_plan};
+  fftw_execute(plan.get());
+  if (p.inverse)
+    for (dvec2& value : values) value /= double(values.size());
+  return values;
 }
 
 /// ||got - want|| / ||want||.
@@ -76,7 +93,8 @@ const Registration registration = register_stage<SpectrumProblem, Grid<dvec2>>({
                      throw Unsupported("the sum takes too long");
                    return cpu::fourier_sum(in_double(p.values), p.inverse);
                  },
-             .must_agree = true}},
+             .must_agree = true},
+            {.name = "FFTW", .solve = by_library, .must_agree = true}},
     .gpu = {{.solve =
                  [](gpu::Context& context, const SpectrumProblem& p) {
                    return in_double(gpu::fourier_transform(context, p.values, p.inverse));

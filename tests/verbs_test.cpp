@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "cpu_reference/sampling/reconstruct.h"
 #include "geometry/atomic_file.h"
 #include "geometry/image_io.h"
 
@@ -54,6 +55,60 @@ class Verbs : public testing::Test {
   std::filesystem::path folder_ =
       std::filesystem::temp_directory_path() / ("parity_verbs_" + std::to_string(::getpid()));
 };
+
+TEST_F(Verbs, SpectrumFindsTheAliasOfAGrating) {
+  for (const char* backend : {"cpu", "gpu"}) {
+    const Answer answer = run_for_output("spectrum --grating 0.8,1.1 --size 96 --json --backend " +
+                                         std::string(backend));
+    EXPECT_EQ(answer.exit_code, 0);
+    const nlohmann::json json = nlohmann::json::parse(answer.output);
+    ASSERT_EQ(json.at("peaks").size(), 1u) << backend;
+    const nlohmann::json& f = json.at("peaks")[0].at("frequency");
+    EXPECT_NEAR(f[0].get<double>(), 0.2, 0.02 / 96);
+    EXPECT_NEAR(f[1].get<double>(), -0.1, 0.02 / 96);
+  }
+  EXPECT_NE(run_for_output("spectrum --grating 0.8,0").output.find("looks like (0.2, 0)"),
+            std::string::npos);
+}
+
+TEST_F(Verbs, SpectrumShowsThatAFilterTakesAwayWhatWouldAlias) {
+  const auto strongest = [&](const std::string& filter) {
+    const Answer answer = run_for_output(
+        "spectrum --grating 0.075,0.0125 --size 640 --scale 0.125 --json --filter " + filter);
+    const nlohmann::json peaks = nlohmann::json::parse(answer.output).at("peaks");
+    return peaks.empty() ? 0.0 : peaks[0].at("amplitude").get<double>();
+  };
+  // 0.6 cycles a new pixel look like 0.4, whatever filter was there; it leaves what its spectrum
+  // does at 0.6, and at 8 - 0.6, as it is sampled at 8 texels a new pixel: there at most
+  // 1 / (7.4 pi)^2.
+  EXPECT_NEAR(strongest("none"), 0.5, 0.5 * 3 * std::exp(-8.0));
+  for (const ReconstructionFilter filter :
+       {ReconstructionFilter::tent, ReconstructionFilter::lanczos})
+    EXPECT_NEAR(
+        strongest(name_of(filter)),
+        0.5 * std::abs(cpu::filter_spectrum(filter, 0.6) * cpu::filter_spectrum(filter, 0.1)),
+        0.5 / 50)
+        << name_of(filter);
+}
+
+TEST_F(Verbs, SpectrumDrawsThePictureBesideItsSpectrum) {
+  EXPECT_EQ(run_for_output("spectrum --zone-plate 0.75 --size 64 -o s.png").exit_code, 0);
+  const Grid<vec4> sheet = load_image(file("s.png"));
+  EXPECT_EQ(sheet.width(), 2 * 64 + 8);
+  EXPECT_EQ(sheet.height(), 64);
+  EXPECT_EQ(run_for_output("spectrum s.png --scale 0.4 --filter box").exit_code, 0);
+}
+
+TEST_F(Verbs, SpectrumRefusesInOneLine) {
+  expect_one_line("spectrum", 2);
+  expect_one_line("spectrum --grating 1", 2);
+  expect_one_line("spectrum --grating nan,0", 2);
+  expect_one_line("spectrum --grating 1,0 --zone-plate 1", 2);
+  expect_one_line("spectrum missing.png", 2);
+  expect_one_line("spectrum --zone-plate 1 -o s.jpg", 2);
+  expect_one_line("spectrum --zone-plate 1 --size 4096 --scale 2", 2);
+  expect_one_line("spectrum --zone-plate 1 -o missing/s.png", 5);
+}
 
 TEST_F(Verbs, DiffMeasuresAndJudges) {
   Grid<vec4> a{12, 9, vec4(0.5f, 0.5f, 0.5f, 1.0f)}, b = a;
