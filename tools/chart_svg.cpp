@@ -69,6 +69,7 @@ struct Canvas {
   const ChartData& data;
   Area area;
   Scale x, y;
+  bool names_points = false;  ///< few enough to be told by name
   Svg svg;
 
   double at_x(double value) const { return area.left + x.place(value) * area.width; }
@@ -108,6 +109,8 @@ void draw_series(Canvas& canvas, std::size_t index, const std::set<Place>& front
                                          three_digits(point.x), three_digits(point.y));
     canvas.svg.marker(x, y, is_device(series), hollow ? "white" : color, color, hint,
                       is_device(series) ? 5 : 3.5);
+    if (canvas.names_points && !point.label.empty())
+      canvas.svg.text(x + 7, y - 7, point.label, {.size = 10, .color = "#555"});
   }
 }
 
@@ -153,6 +156,13 @@ Scale scale_of(const std::vector<double>& values, bool logarithmic) {
   scale.zero_at_low = logarithmic && std::ranges::count(values, 0.0) > 0;
   if (scale.zero_at_low) scale.low /= std::pow(scale.high / scale.low, 0.12);
   return scale;
+}
+
+std::size_t measured_points(const ChartData& data) {
+  std::size_t count = 0;
+  for (const Series& series : data.series)
+    if (series.kind == Series::Kind::measured) count += series.points.size();
+  return count;
 }
 
 double legend_width(const Chart& chart, const ChartData& data) {
@@ -204,6 +214,7 @@ std::string chart_svg(const Chart& chart, const ChartData& data, const Provenanc
                 .area = area,
                 .x = scale_of(values_along(data, &Point::x), chart.x.logarithmic),
                 .y = scale_of(values_along(data, &Point::y), chart.y.logarithmic),
+                .names_points = measured_points(data) <= 24,
                 .svg = Svg(width, height)};
   const std::set<Place> front = front_of(chart, data);
   draw_title(canvas.svg, chart.title, chart.name);

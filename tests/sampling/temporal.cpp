@@ -100,17 +100,30 @@ double error_of(const Grid<vec4>& got, const Grid<vec4>& truth) {
   return std::sqrt(sum / double(truth.size()));
 }
 
-/// A disc that rests for 32 frames and then goes 1.5 px a frame, without motion vectors: what is
-/// accumulated must be given up.
-Series accumulate_disc(gpu::Context& context, const std::string& name, bool clamps, float longest) {
+constexpr double speed = 1.5;  ///< px a frame
+
+/// Where each pixel was: the disc, and the pixels that it touches, move.
+Grid<vec2> disc_motion(int frame, dvec2 middle) {
+  if (frame == 0) return {96, 96, vec2(1e6f)};
+  Grid<vec2> motion{96, 96};
+  for (int y = 0; y < 96 && frame >= 32; ++y)
+    for (int x = 0; x < 96; ++x)
+      if (glm::distance(dvec2(x + 0.5, y + 0.5), middle) < 21) motion(x, y).x = -float(speed);
+  return motion;
+}
+
+/// A disc that rests for 32 frames and then moves. Without motion vectors, what is accumulated must
+/// be given up.
+Series accumulate_disc(gpu::Context& context, const std::string& name, bool clamps, float longest,
+                       bool follows = false) {
   Series series{name, {}};
   Grid<vec4> history{96, 96};
   const std::vector<dvec2> shifts = cpu::pattern(SamplePattern::r2, 64, 1);
   for (int frame = 0; frame < 48; ++frame) {
-    const dvec2 middle{40.3 + 1.5 * std::max(0, frame - 31), 47.8};
+    const dvec2 middle{40.3 + speed * std::max(0, frame - 31), 47.8};
     history = gpu::accumulate(
         context, {disc_frame(middle, shifts[std::size_t(frame)] - 0.5), history,
-                  Grid<vec2>(96, 96, frame == 0 ? vec2(1e6f) : vec2(0)), longest, clamps});
+                  disc_motion(follows ? frame : std::min(frame, 1), middle), longest, clamps});
     series.points.push_back({double(frame + 1), error_of(history, disc_truth(middle))});
   }
   return series;
@@ -119,10 +132,13 @@ Series accumulate_disc(gpu::Context& context, const std::string& name, bool clam
 ChartData error_over_frames(gpu::Context& context) {
   const Series held = accumulate_disc(context, "history held to the neighbours", true, 64);
   const Series free = accumulate_disc(context, "history as it is", false, 64);
+  const Series followed = accumulate_disc(context, "with motion vectors", true, 64, true);
   const Series none = accumulate_disc(context, "no history", false, 1);
-  return {.series = {held, free, none},
+  return {.series = {followed, held, free, none},
           .assertions = {{"at rest, frame 32: error over that of one frame",
                           held.points[31].y / none.points[31].y, 0.25},
+                         {"moving, frame 48: error with motion vectors over that of one frame",
+                          followed.points[47].y / none.points[47].y, 1},
                          {"moving, frame 48: error over that of one frame",
                           held.points[47].y / none.points[47].y, 2},
                          {"moving, frame 48: error without holding over that of one frame",
