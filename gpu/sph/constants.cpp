@@ -76,21 +76,23 @@ double wall_share(const SphParameters& p, double scale, double volume) {
   return alone > 0 ? behind * volume / alone : 0;
 }
 
-SphGrid grid_of(const SphProblem& problem) {
+/// `reach`: cells of a support along y and z; along x it is 2 cells.
+SphGrid grid_of(const SphProblem& problem, int reach) {
   const SphParameters& p = problem.parameters;
   const bool solid = p.dimensions == 3;
   SphGrid grid;
   const dvec3 margin{p.support, p.support, solid ? p.support : 0};
   const dvec3 sides = problem.domain.high - problem.domain.low + 2.0 * margin;
   grid.low = vec3(problem.domain.low - margin);
-  grid.inverse_cell = vec3(float(2 / p.support));
-  grid.cells = uvec3(glm::ceil(sides * 2.0 / p.support));
-  grid.support = float(p.support);
+  const dvec3 parts = dvec3(2, reach, reach) / p.support;
+  grid.inverse_cell = vec3(parts);
+  grid.cells = uvec3(glm::ceil(sides * parts));
   if (!solid) {
     grid.low.z = 0;
     grid.cells.z = 1;
   }
-  grid.reach_z = solid ? 2 : 0;
+  grid.reach = reach;
+  grid.reach_z = solid ? reach : 0;
   return grid;
 }
 
@@ -109,7 +111,8 @@ SphConstants sph_constants(const SphProblem& problem) {
   const double artificial = p.artificial_viscosity * sound * p.support / 2;
   const double ball = d == 3 ? 4 * pi / 3 : pi;
   SphConstants c{};
-  c.grid = grid_of(problem);
+  c.grid = grid_of(problem, 2);
+  c.wall_grid = grid_of(problem, 1);
   c.gravity = vec3(p.gravity);
   c.support = float(p.support);
   c.inverse_support = float(1 / p.support);

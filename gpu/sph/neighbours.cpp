@@ -11,26 +11,31 @@
 namespace parity::gpu {
 namespace {
 
-std::uint32_t cell_count(const SphConstants& constants) {
-  const uvec3 cells = constants.grid.cells;
-  return cells.x * cells.y * cells.z;
+const SphGrid& grid_of(const SphConstants& constants, bool walls) {
+  return walls ? constants.wall_grid : constants.grid;
 }
 
-/// A bit for each cell from which a point may be within the support: two cells, and one against
-/// rounding.
+std::uint32_t cell_count(const SphGrid& grid) { return grid.cells.x * grid.cells.y * grid.cells.z; }
+
+/// A bit for each cell whose box a point is within the support of, and a thousandth against
+/// rounding; cells at the rim go on outwards without end.
 std::vector<std::uint32_t> cells_near(const SphGrid& grid, const std::vector<vec3>& points) {
   const uvec3 n = grid.cells;
-  const ivec3 last = ivec3(n) - 1;
+  const vec3 last = vec3(n) - 1.0f;
   std::vector<std::uint32_t> bits((std::size_t(n.x) * n.y * n.z + 31) / 32);
   for (const vec3& point : points) {
-    const vec3 at = glm::clamp((point - grid.low) * grid.inverse_cell, vec3(0), vec3(last));
-    const ivec3 low = glm::max(ivec3(at) - 3, ivec3(0));
-    const ivec3 high = glm::min(ivec3(at) + 3, last);
-    for (int z = low.z; z <= high.z; ++z)
-      for (int y = low.y; y <= high.y; ++y)
-        for (int x = low.x; x <= high.x; ++x) {
-          const std::size_t cell = (std::size_t(z) * n.y + std::size_t(y)) * n.x + std::size_t(x);
-          bits[cell / 32] |= 1u << cell % 32;
+    const vec3 at = glm::clamp((point - grid.low) * grid.inverse_cell, vec3(0), vec3(n));
+    const vec3 first = glm::clamp(glm::floor(at - 2.01f), vec3(0), last);
+    const vec3 end = glm::clamp(glm::floor(at + 2.01f), vec3(0), last);
+    vec3 cell;
+    for (cell.z = first.z; cell.z <= end.z; ++cell.z)
+      for (cell.y = first.y; cell.y <= end.y; ++cell.y)
+        for (cell.x = first.x; cell.x <= end.x; ++cell.x) {
+          const vec3 apart = at - glm::clamp(at, cell, cell + 1.0f);
+          if (glm::dot(apart, apart) > 4.02f) continue;
+          const std::size_t index =
+              (std::size_t(cell.z) * n.y + std::size_t(cell.y)) * n.x + std::size_t(cell.x);
+          bits[index / 32] |= 1u << index % 32;
         }
   }
   return bits;
@@ -38,7 +43,7 @@ std::vector<std::uint32_t> cells_near(const SphGrid& grid, const std::vector<vec
 
 /// Of a particle's list: blocks of 64 particles.
 std::size_t list_first(const SphConstants& constants, std::uint32_t i) {
-  return std::size_t(i / 64 * 64) * constants.capacity + i % 64;
+  return std::size_t(i / 64 * 64) * (constants.capacity + 1) + i % 64;
 }
 
 std::vector<Specialization> kernel_of(std::uint32_t kernel) { return {{0, kernel}}; }
@@ -52,11 +57,12 @@ std::vector<vec4> with_zero(const std::vector<vec3>& points) {
   return result;
 }
 
-CellSort::CellSort(Context& context, const SphConstants& constants, std::uint32_t count)
+CellSort::CellSort(Context& context, const SphConstants& constants, std::uint32_t count, bool walls)
     : count_(count),
-      cell_count_(cell_count(constants)),
-      row_(constants.grid.cells.x),
-      rows_(constants.grid.cells.y),
+      walls_(walls ? 1 : 0),
+      cell_count_(cell_count(grid_of(constants, walls))),
+      row_(grid_of(constants, walls).cells.x),
+      rows_(grid_of(constants, walls).cells.y),
       key_bits_(std::uint32_t(std::bit_width(cell_count_))),
       cell_key_(context, shaders::sph_cell_key_comp),
       cell_start_(context, shaders::sph_cell_start_comp),
@@ -76,7 +82,8 @@ void CellSort::record(Commands& commands, BufferRef<SphConstants> constants,
                        .positions = positions,
                        .keys = keys_,
                        .ids = ids_,
-                       .count = count_});
+                       .count = count_,
+                       .walls = walls_});
     sort_.record(commands, count_buffer_, keys_, ids_, key_bits_);
   }
   CellStartArgs args{.keys = keys_,
@@ -99,8 +106,8 @@ void CellSort::record_gather(Commands& commands, BufferRef<vec4> from, BufferRef
 Neighbours::Neighbours(Context& context, const SphProblem& problem, const SphConstants& constants)
     : count_(constants.count),
       constants_(context, std::vector<SphConstants>{constants}),
-      cells_(context, constants, constants.count),
-      boundary_cells_(context, constants, constants.boundary_count),
+      cells_(context, constants, constants.count, false),
+      boundary_cells_(context, constants, constants.boundary_count, true),
       neighbours_(context, shaders::sph_neighbours_comp,
                   kernel_of(std::uint32_t(problem.parameters.kernel))),
       boundary_(context, constants.boundary_count),

@@ -15,7 +15,8 @@ namespace parity::gpu {
 /// Points sorted by (cell, id), and where each cell begins. Any device gives the same order.
 class CellSort {
  public:
-  CellSort(Context& context, const SphConstants& constants, std::uint32_t count);
+  /// @param walls  by the walls' grid.
+  CellSort(Context& context, const SphConstants& constants, std::uint32_t count, bool walls);
 
   /// Sorts `positions`, of which there are as many as the count.
   void record(Commands& commands, BufferRef<SphConstants> constants, BufferRef<vec4> positions);
@@ -29,6 +30,7 @@ class CellSort {
 
  private:
   std::uint32_t count_;
+  std::uint32_t walls_;
   std::uint32_t cell_count_;
   std::uint32_t row_;   ///< cells
   std::uint32_t rows_;  ///< along y

@@ -9,7 +9,8 @@ layout(scalar, push_constant) uniform Push { CellKeyArgs args; };
 void main() {
   const uint i = gl_GlobalInvocationID.x;
   if (i >= args.count) return;
-  const SphGrid grid = args.constants.at[0].grid;
+  SphGrid grid = args.constants.at[0].grid;
+  if (args.walls != 0u) grid = args.constants.at[0].wall_grid;
   args.keys.at[i] = cell_index(grid, cell_of(grid, args.positions.at[i].xyz));
   args.ids.at[i] = i;
 }

@@ -1,10 +1,7 @@
-// Cells of a grid half as wide as the support, so that all neighbours lie in the 5 x 5 rows along x
-// around a point; of each row, the cells within the support are one range of the sorted particles.
-// Points outside count to the nearest cell, which keeps neighbours neighbours. Source: Green 2010,
-// "Particle Simulation using CUDA", with finer cells.
-
-/// Rows to look at on either side along y.
-const int row_reach = 2;
+// Cells of a grid half as wide as the support, or as wide along y and z, so that all neighbours lie in
+// the 5 x 5 or 3 x 3 rows along x around a point; of each row, the cells within the support are one
+// range of the sorted particles. Points outside count to the nearest cell, which keeps neighbours
+// neighbours. Source: Green 2010, "Particle Simulation using CUDA", with finer cells.
 
 ivec3 cell_of(SphGrid grid, vec3 p) {
   precise const vec3 at = floor((p - grid.low) * grid.inverse_cell);
@@ -17,40 +14,32 @@ uint cell_index(SphGrid grid, ivec3 cell) {
   return (uint(cell.z) * grid.cells.y + uint(cell.y)) * grid.cells.x + uint(cell.x);
 }
 
-/// How far a point is at least from a row `step` away, in cells; 0 for the outermost rows, whose
-/// points may lie anywhere beyond. `along`: the point's coordinate in cells.
-float row_distance(float along, int cell, int step, uint cells) {
+/// Where a point is, in cells from the grid's corner.
+vec3 place_in_cells(SphGrid grid, vec3 p) { return (p - grid.low) * grid.inverse_cell; }
+
+/// Least square of the distance, in supports, from a point to the rows that are `step` rows of one
+/// `reach`-th of a support away; 0 for the outermost rows, whose points may lie anywhere beyond, and
+/// out of reach where there are none. `along`: the point's coordinate in cells.
+float row_distance(float along, int cell, int step, uint cells, int reach) {
   const int row = cell + step;
-  if (step == 0 || row <= 0 || row >= int(cells) - 1) return 0.0;
-  const float apart = step < 0 ? along - float(row + 1) : float(row) - along;
-  return max(apart, 0.0);
+  const int last = int(cells) - 1;
+  if (row < 0 || row > last) return 2.0;
+  if (step == 0 || row == 0 || row == last) return 0.0;
+  const float apart = max(step < 0 ? along - float(row + 1) : float(row) - along, 0.0) / float(reach);
+  return apart * apart;
 }
 
-uint cell_along_x(SphGrid grid, float x) {
-  precise const float at = floor((x - grid.low.x) * grid.inverse_cell.x);
+/// What is left of the squared support, in supports, for a row after its distances; a little is added
+/// against rounding. Not positive: no point of the row is within the support.
+const float whole_support = 1.002;
+
+/// Begin and end, among the sorted particles, of the part of a row that may be within the support.
+/// `x`: the point's coordinate in cells; `row`: number of the row; `left`: as above, positive.
+uvec2 row_range(SphGrid grid, ref_uint starts, float x, int row, float left) {
+  const float reach = 2.0 * (sqrt(left) + 0.001);
   const int last = int(grid.cells.x) - 1;
-  return uint(clamp(int(clamp(at, 0.0, float(last))), 0, last));
-}
-
-/// First and last cell of the part of a row that may be within the support; the row is (dy, dz) away
-/// from the point's cell. x > y: none. A thousandth of the support is added against rounding.
-uvec2 row_cells(SphGrid grid, vec3 p, ivec3 cell, int dy, int dz) {
-  const int y = cell.y + dy;
-  const int z = cell.z + dz;
-  if (y < 0 || z < 0 || y >= int(grid.cells.y) || z >= int(grid.cells.z)) return uvec2(1u, 0u);
-  const vec3 at = (p - grid.low) * grid.inverse_cell;
-  const float a = row_distance(at.y, cell.y, dy, grid.cells.y);
-  const float b = row_distance(at.z, cell.z, dz, grid.cells.z);
-  const float square = 1.002 - 0.25 * (a * a + b * b);
-  if (!(square > 0.0)) return uvec2(1u, 0u);
-  const float reach = (sqrt(square) + 0.001) * grid.support;
-  const uint row = (uint(z) * grid.cells.y + uint(y)) * grid.cells.x;
-  return row + uvec2(cell_along_x(grid, p.x - reach), cell_along_x(grid, p.x + reach));
-}
-
-/// Begin and end among the sorted particles.
-uvec2 row_range(SphGrid grid, ref_uint starts, vec3 p, ivec3 cell, int dy, int dz) {
-  const uvec2 cells = row_cells(grid, p, cell, dy, dz);
-  if (cells.x > cells.y) return uvec2(0u);
-  return uvec2(starts.at[cells.x], starts.at[cells.y + 1u]);
+  const vec2 ends = clamp(vec2(x - reach, x + reach), 0.0, float(last));
+  // Twice, as a NaN may pass the first.
+  const ivec2 part = clamp(ivec2(ends), 0, last) + row * int(grid.cells.x);
+  return uvec2(starts.at[part.x], starts.at[part.y + 1]);
 }

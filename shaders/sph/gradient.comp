@@ -29,7 +29,7 @@ void main() {
     slopes += outerProduct(args.field.at[j].xyz - value, gradient);
   }
   float trace = moments[0].x + moments[1].y + moments[2].z;
-  if (c.grid.reach_z == 0u) moments[2].z = 0.5 * trace;  // nothing happens along z
+  if (c.grid.reach_z == 0) moments[2].z = 0.5 * trace;  // nothing happens along z
   trace = (moments[0].x + moments[1].y + moments[2].z) / 3.0;
   const bool is_flat = !(determinant(moments) >= 0.05 * trace * trace * trace && trace > 0.0);
   args.gradients.at[args.ids.at[i]] = is_flat ? mat3(0.0) : slopes * inverse(moments);

@@ -8,19 +8,20 @@
 namespace parity {
 #endif
 
-/// A grid of cells, x fastest, half a support wide.
+/// A grid of cells, x fastest: along x half a support wide, else the `reach`-th part of one.
 struct SphGrid {
   vec3 low;
   vec3 inverse_cell;  ///< 1/m
   uvec3 cells;
-  float support;
-  uint reach_z;  ///< rows to look at on either side along z: 2, or 0 in 2 dimensions
+  int reach;    ///< rows to look at on either side along y
+  int reach_z;  ///< along z: as many, or 0 in 2 dimensions
 };
 REF_TYPE(SphGrid, 4)
 
 /// What a fluid is; constant during a run.
 struct SphConstants {
   SphGrid grid;
+  SphGrid wall_grid;  ///< coarser, as the loops over few particles cost more than the particles
   vec3 gravity;
   float support;
   float inverse_support;  ///< 1/m
@@ -77,7 +78,7 @@ struct CellKeyArgs {
   REF(uint) keys;
   REF(uint) ids;
   uint count;
-  uint padding;
+  uint walls;  ///< 1: by the walls' grid
 };
 
 struct CellStartArgs {
@@ -98,7 +99,8 @@ struct GatherArgs {
 };
 
 /// Lists stand in blocks of 64 particles, inside them column by column: neighbour k of particle i at
-/// (i - i % 64) * capacity + 64 k + i % 64; first the fluid's, then the walls'.
+/// (i - i % 64) * (capacity + 1) + 64 k + i % 64; first the fluid's, then the walls', then what is
+/// none.
 struct NeighbourArgs {
   REF(SphConstants) constants;
   REF(vec4) positions;  ///< sorted
