@@ -30,6 +30,7 @@ PressureSolver::PressureSolver(Context& context, const SphProblem& problem,
       predicted_(context, constants.count),
       moved_(context, constants.count),
       sums_(context, (constants.count + block - 1) / block),
+      groups_(context, 9),
       solver_(context, std::vector<SphSolver>(1)),
       divergence_solver_(context, std::vector<SphSolver>(1)) {}
 
@@ -63,7 +64,9 @@ void PressureSolver::record(Commands& commands, const Neighbours& neighbours,
                      .impulses = impulses_,
                      .predicted = predicted_,
                      .solver = args.solver,
+                     .groups = groups_,
                      .count = count_,
+                     .block = block,
                      .divergence = args.divergence});
   record_rounds(commands, args);
   if (!is_divergence_free_) return;
@@ -77,26 +80,28 @@ void PressureSolver::record(Commands& commands, const Neighbours& neighbours,
                      .impulses = impulses_,
                      .predicted = predicted_,
                      .solver = solver_,
-                     .count = count_});
+                     .groups = groups_,
+                     .count = count_,
+                     .block = block});
   args.solver = solver_;
   args.divergence = 0;
   record_rounds(commands, args);
 }
 
 void PressureSolver::record_rounds(Commands& commands, const SolveArgs& args) {
-  const std::uint32_t blocks = (count_ + block - 1) / block;
   const SolveCheckArgs check{.moved = moved_,
                              .sums = sums_,
                              .solver = args.solver,
+                             .groups = groups_,
                              .count = count_,
                              .block = block,
                              .tolerance = tolerance_,
                              .least = args.divergence != 0 ? 1u : 2u};
   for (std::uint32_t k = 0; k < max_iterations_; ++k) {
-    commands.dispatch(move_, {count_}, args);
-    commands.dispatch(press_, {count_}, args);
-    commands.dispatch(check_, {blocks}, check);
-    commands.dispatch(stop_, {1}, check);
+    commands.dispatch_indirect(move_, groups_, 0, args);
+    commands.dispatch_indirect(press_, groups_, 0, args);
+    commands.dispatch_indirect(check_, groups_, 3, check);
+    commands.dispatch_indirect(stop_, groups_, 6, check);
   }
 }
 

@@ -51,6 +51,7 @@ class PressureSolver {
   Buffer<vec4> predicted_;
   Buffer<vec4> moved_;
   Buffer<vec2> sums_;
+  Buffer<std::uint32_t> groups_;  ///< of the rounds' dispatches
   Buffer<SphSolver> solver_;
   Buffer<SphSolver> divergence_solver_;
 };

@@ -28,6 +28,7 @@ ViscositySolver::ViscositySolver(Context& context, const SphProblem& problem,
       direction_(context, count_),
       image_(context, count_),
       sums_(context, (count_ + block - 1) / block),
+      groups_(context, 9),
       solver_(context, std::vector<SphViscous>(1)) {}
 
 void ViscositySolver::record(Commands& commands, const Neighbours& neighbours,
@@ -42,7 +43,9 @@ void ViscositySolver::record(Commands& commands, const Neighbours& neighbours,
                      .direction = direction_,
                      .image = image_,
                      .solver = solver_,
-                     .count = count_});
+                     .groups = groups_,
+                     .count = count_,
+                     .block = block});
   const ViscousApplyArgs apply{.constants = neighbours.constants(),
                                .clock = clock,
                                .places = densities.places(),
@@ -71,6 +74,7 @@ void ViscositySolver::record_iterations(Commands& commands, ViscousApplyArgs app
                            .solution = solution_,
                            .sums = sums_,
                            .solver = solver_,
+                           .groups = groups_,
                            .count = count_,
                            .block = block,
                            .tolerance = tolerance_};
@@ -85,10 +89,10 @@ void ViscositySolver::record_iterations(Commands& commands, ViscousApplyArgs app
   apply.to = product_;
   apply.first = 0;
   for (std::uint32_t k = 0; k < max_iterations_; ++k) {
-    commands.dispatch(apply_, {count_}, apply);
-    commands.dispatch(sum_, {(count_ + block - 1) / block}, sum);
-    commands.dispatch(choose_, {1}, sum);
-    commands.dispatch(update_, {count_}, update);
+    commands.dispatch_indirect(apply_, groups_, 0, apply);
+    commands.dispatch_indirect(sum_, groups_, 3, sum);
+    commands.dispatch_indirect(choose_, groups_, 6, sum);
+    commands.dispatch_indirect(update_, groups_, 0, update);
   }
 }
 

@@ -44,6 +44,7 @@ class ViscositySolver {
   Buffer<vec4> direction_;
   Buffer<vec4> image_;
   Buffer<vec3> sums_;
+  Buffer<std::uint32_t> groups_;  ///< of the rounds' dispatches
   Buffer<SphViscous> solver_;
 };
 

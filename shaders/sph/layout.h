@@ -189,8 +189,9 @@ struct ViscousBeginArgs {
   REF(vec4) direction;
   REF(vec4) image;  ///< of the direction
   REF(SphViscous) solver;
+  REF(uint) groups;  ///< of the dispatches of its rounds
   uint count;
-  uint padding;
+  uint block;
 };
 
 /// `first`: writes what viscosity adds to `from`, walls moving; else from less that, walls at rest.
@@ -215,6 +216,7 @@ struct ViscousSumArgs {
   REF(vec4) solution;
   REF(vec3) sums;  ///< of each block: r r, r A r, x x
   REF(SphViscous) solver;
+  REF(uint) groups;
   uint count;
   uint block;
   float tolerance;  ///< of the residual, relative to the solution
@@ -264,8 +266,11 @@ struct SolveBeginArgs {
   REF(float) impulses;   ///< sorted: step times p / rho^2
   REF(vec4) predicted;   ///< velocities without pressure; w: 1 / diagonal
   REF(SphSolver) solver;
+  REF(uint) groups;  ///< of the dispatches of its rounds
   uint count;
+  uint block;
   uint divergence;  ///< 1: begin with no pressure and no acceleration
+  uint padding;
 };
 
 struct SolveArgs {
@@ -287,6 +292,7 @@ struct SolveCheckArgs {
   REF(vec4) moved;
   REF(vec2) sums;  ///< of each block: sum and largest
   REF(SphSolver) solver;
+  REF(uint) groups;
   uint count;
   uint block;
   float tolerance;
@@ -303,8 +309,9 @@ struct SolvePredictArgs {
   REF(float) impulses;
   REF(vec4) predicted;
   REF(SphSolver) solver;
+  REF(uint) groups;
   uint count;
-  uint padding;
+  uint block;
 };
 
 /// Of a vector field, by corrected kernels; columns: derivatives along x, y, z.

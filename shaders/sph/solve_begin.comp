@@ -1,5 +1,6 @@
 #version 460
 #include "sph/layout.h"
+#include "sph/rounds.glsl"
 #include "sph/kernel.glsl"
 #include "sph/lists.glsl"
 #include "sph/solve.glsl"
@@ -16,7 +17,10 @@ void main() {
   if (i >= args.count) return;
   const SphConstants c = args.constants.at[0];
   const float dt = args.clock.at[0].step;
-  if (i == 0u) args.solver.at[0] = SphSolver(dt > 0.0 ? 1u : 0u, 0u, 0.0, 0.0);
+  if (i == 0u) {
+    args.solver.at[0] = SphSolver(dt > 0.0 ? 1u : 0u, 0u, 0.0, 0.0);
+    set_rounds(args.groups, dt > 0.0, args.count, args.block);
+  }
   const vec4 place = args.places.at[i];
   const uvec2 counts = args.counts.at[i];
   const uint listed = min(counts.y, c.capacity);

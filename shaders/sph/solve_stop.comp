@@ -1,5 +1,6 @@
 #version 460
 #include "sph/layout.h"
+#include "sph/rounds.glsl"
 
 // Stops the solver where the average compression is within the tolerance and the largest within ten
 // times that, but not before the least rounds; one thread.
@@ -21,7 +22,9 @@ void main() {
   solver.average = sum / float(args.count);
   solver.largest = largest;
   if (solver.iterations >= args.least && solver.average <= args.tolerance &&
-      largest <= 10.0 * args.tolerance)
+      largest <= 10.0 * args.tolerance) {
     solver.running = 0u;
+    stop_rounds(args.groups);
+  }
   args.solver.at[0] = solver;
 }

@@ -1,5 +1,6 @@
 #version 460
 #include "sph/layout.h"
+#include "sph/rounds.glsl"
 
 // Stops conjugate gradients at the tolerance, or chooses how far to go next; one thread. All
 // eigenvalues are at least 1, so the residual bounds the error. Source: Chronopoulos & Gear 1989.
@@ -20,6 +21,7 @@ void main() {
   solver.square = sum.z;
   if (sum.x <= bound || !(curved > 0.0)) {
     solver.running = 0u;
+    stop_rounds(args.groups);
   } else {
     solver.alpha = sum.x / curved;
     solver.beta = beta;
