@@ -65,6 +65,24 @@ TEST(GpuGuard, NewMemoryIsNonsense) {
   }
 }
 
+TEST(GpuGuard, MemoryThatIsGivenBackIsNonsense) {
+  gpu::Context context({.device = "", .guard = Guard::zones});
+  if (context.info().type != "cpu" && context.info().type != "integrated")
+    GTEST_SKIP() << "the device has memory of its own";
+  const Kernel<TestPokeArgs> kernel(context, gpu::shaders::core_test_peek_comp);
+  const Buffer<std::uint32_t> values(context, std::vector<std::uint32_t>(count, 7));
+  std::uint64_t stale = 0;
+  {
+    const Buffer<std::uint32_t> gone(context, std::vector<std::uint32_t>(count, 7));
+    stale = gone.raw().address();
+  }
+  const auto at = int((std::int64_t(stale) - std::int64_t(values.raw().address())) / 4);
+  context.run([&](Commands& commands) {
+    commands.dispatch(kernel, {.x = 1}, TestPokeArgs{values, at, 0});
+  });
+  EXPECT_EQ(values.read(0, 1)[0], 0xCDCDCDCDu);
+}
+
 /// In a process of its own, since an access past a fence ends it.
 void touch_fenced(Access access, int at) {
   const rlimit no_core{0, 0};

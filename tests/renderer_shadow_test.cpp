@@ -6,6 +6,7 @@
 #include "cpu_reference/raster/renderer.h"
 #include "geometry/cast_shadows.h"
 #include "geometry/scene_io.h"
+#include "gpu/sampling/antialias.h"
 #include "tests/raster/agreement.h"
 #include "tests/renderer_scene.h"
 
@@ -65,19 +66,22 @@ double beyond(const dvec2& p, double size) { return std::max(std::abs(p.x), std:
 /// Compares with what geometry says, but for its border: r + 1 texels of filter and map, and
 /// sqrt 2 (r + 1) by which a receiver is moved; in the plane of the square a texel is at most 0.015
 /// m.
-void expect_shadow(const Wall& wall, const Grid<vec4>& with, const Grid<vec4>& without) {
+///
+/// @param reach  of a pixel's places from its middle, m.
+void expect_shadow(const Wall& wall, const Grid<vec4>& with, const Grid<vec4>& without,
+                   double reach = 0) {
   int dark = 0, lit = 0;
   for (int y = 0; y < 33; ++y)
     for (int x = 0; x < 33; ++x) {
       const dvec2 p{(x + 0.5) / 33 * 2 - 1, 1 - (y + 0.5) / 33 * 2};
-      if (beyond(p * 0.8, blocker_size) < 0.03) {  // the square itself
-        if (beyond(p * 0.8, blocker_size) < -0.03) {
+      if (beyond(p * 0.8, blocker_size) < 0.03 + reach) {  // the square itself
+        if (beyond(p * 0.8, blocker_size) < -0.03 - reach) {
           EXPECT_EQ(with(x, y), without(x, y));
         }
         continue;
       }
       const double outside = beyond(wall.toward_light(p), blocker_size);
-      if (std::abs(outside) < 0.075) continue;
+      if (std::abs(outside) < 0.075 + reach) continue;
       (outside < 0 ? dark : lit) += 1;
       EXPECT_EQ(with(x, y), outside < 0 ? vec4(0, 0, 0, 1) : without(x, y)) << x << ", " << y;
     }
@@ -101,6 +105,16 @@ TEST_F(GpuRenderer, ASquareCastsTheShadowThatGeometrySays) {
     expect_shadow(wall, cpu::render(scene, wall.frame).picture.color,
                   cpu::render(scene, open).picture.color);
   }
+}
+
+TEST_F(GpuRenderer, RefinedPixelsHaveTheShadowsToo) {
+  Wall wall(LightKind::directional);
+  const Frame open = wall.frame;
+  wall.frame.shadows = cast_on_device(wall.stage.scene, open);
+  gpu::Antialiaser antialiaser(test_context(), wall.stage.scene);
+  constexpr float all = -1;  // contrast
+  expect_shadow(wall, antialiaser.adaptive(wall.frame, all, 1).color,
+                antialiaser.adaptive(open, all, 1).color, 1.0 / 33);
 }
 
 TEST_F(GpuRenderer, APlaneNeverShadowsItself) {

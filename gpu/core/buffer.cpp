@@ -218,7 +218,11 @@ MemoryBuffer make_buffer(ContextState& context, std::size_t bytes, MemoryUse use
 }
 
 RawBuffer::State::~State() {
-  if (guard_entry) context.guarded.erase(*guard_entry);
+  if (guard_entry) {
+    context.guarded.erase(*guard_entry);
+    // Whoever still holds the address shall see that it is stale.
+    if (mapped != nullptr && !context.link().abandoned) std::memset(mapped, poison, total);
+  }
   context.memory_bytes -= counted;
   if (context.link().abandoned) pages.leak();
 }

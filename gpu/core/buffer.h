@@ -18,8 +18,8 @@ namespace parity::gpu {
 ///
 /// With Guard::zones it lies between zones of 256 bytes of 0xCD that Context::run checks after
 /// every submission. With Guard::fences (CPU drivers) its last byte is the last of a page and the
-/// next page cannot be touched, so that the first stray access ends the process. New bytes are 0xCD
-/// in both, which reads as NaN-like nonsense, never as 0.
+/// next cannot be touched: the first stray access ends the process. In both, new bytes and, where
+/// the host reaches them, those given back are 0xCD, which reads as nonsense, never as 0.
 class RawBuffer {
  public:
   RawBuffer();

@@ -174,7 +174,7 @@ struct Antialiaser::State {
   void add(Commands& commands, const Frame& frame, const SceneFrame& data, bool is_first,
            float weight);
   void find_needs(Commands& commands, float contrast, float gain);
-  void make_lists(const Frame& frame);
+  void make_lists(const Frame& moved, const SceneFrame& data);
   void refine(const Frame& frame, std::uint32_t count, bool blends);
   void keep(const Timing& timing) {
     passes.insert(passes.end(), timing.passes.begin(), timing.passes.end());
@@ -239,11 +239,14 @@ void Antialiaser::State::find_needs(Commands& commands, float contrast, float ga
   commands.dispatch(list, {rows}, args);
 }
 
-/// The triangles of the frame, moved by half of a sixteenth: the places of the samples are whole
-/// sixteenths, whose mean is that much above and left of the middle.
-void Antialiaser::State::make_lists(const Frame& frame) {
-  const Frame moved = shifted(frame, dvec2(-1.0 / 32));
-  const SceneFrame data(context, buffers, blended, moved);
+/// The frame, moved by half of a sixteenth: the places of the samples are whole sixteenths, whose
+/// mean is that much above and left of the middle.
+Frame moved_to_places(const Frame& frame) { return shifted(frame, dvec2(-1.0 / 32)); }
+
+/// The triangles of the frame that is moved to the places.
+///
+/// @param data  of that frame; the lists refer to it.
+void Antialiaser::State::make_lists(const Frame& moved, const SceneFrame& data) {
   const std::vector<uvec2> items = triangle_items(moved, buffers, data);
   if (!lists || !lists->fits(moved, items.size())) {
     lists.reset();
@@ -340,7 +343,9 @@ Picture Antialiaser::adaptive(const Frame& frame, float contrast, float gain) {
   const std::uint32_t count = t.counts.read(t.rows, 1)[0];
   s.refined = double(count) / double(t.pixel_count);
   if (count > 0) {
-    s.make_lists(frame);
+    const Frame moved = moved_to_places(frame);
+    const SceneFrame moved_data(s.context, s.buffers, s.blended, moved);
+    s.make_lists(moved, moved_data);
     s.refine(frame, count, !data.order().empty());
   }
   return s.finish(frame, data, vec4_from_halves(t.averages.read()));

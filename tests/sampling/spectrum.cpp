@@ -77,7 +77,7 @@ const Registration registration = register_stage<SpectrumProblem, Grid<dvec2>>({
     .name = "sampling/spectrum",
     .title = "Fourier transform of a picture of any size",
     .source = "notes 1.8; Cooley & Tukey 1965; Stockham 1966",
-    .rows = {16},
+    .rows = {16, 18},
     .axes = {side_axis("width"),
              side_axis("height"),
              {.name = "inverse", .low = 0, .high = 1, .whole = true, .each = true}},
