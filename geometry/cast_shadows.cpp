@@ -134,7 +134,8 @@ class Caster {
       shadow.bias = float(depth_bias(reach_, depth + 2 * rim));
       dmat4 view = turned;
       view[3] = dvec4(-middle.x, -middle.y, -(whole.high.z + 2 * rim), 1);
-      add(shadow, camera, view, end == farthest_ ? std::numeric_limits<double>::infinity() : end,
+      add(shadow, camera, view, options_.side,
+          end == farthest_ ? std::numeric_limits<double>::infinity() : end,
           2 * camera.x_magnification / options_.side);
     }
   }
@@ -155,8 +156,33 @@ class Caster {
     camera.far = far;
     if (!(camera.near < far)) return;
     shadow.bias = float(depth_bias(reach_, far));
-    add(shadow, camera, view, std::numeric_limits<double>::infinity(),
+    add(shadow, camera, view, options_.side, std::numeric_limits<double>::infinity(),
         2 * std::tan(camera.vertical_fov / 2) / options_.side);
+  }
+
+  /// Six maps around the light, wide enough for the filter and the lift of receivers at their rims.
+  void point(const PlacedLight& light, LightShadow& shadow) const {
+    double far = 0;
+    for (const dvec3& corner : corners_) far = std::max(far, glm::length(corner - light.position));
+    far = std::min(far * 1.001, double(light.light.range));
+    const dvec3 inside = glm::clamp(light.position, corners_.front(), corners_.back());
+    const double near = std::max(far * nearest_part, 0.57 * glm::length(light.position - inside));
+    if (!(near < far)) return;
+    const int side = std::max(options_.side / 2, 16);
+    const double half = 1 / std::max(1 - 2.0 * (3 * options_.radius + 4) / side, 0.5);
+    Camera camera;
+    camera.vertical_fov = 2 * std::atan(half);
+    camera.near = near;
+    camera.far = far;
+    shadow.is_cube = true;
+    shadow.center = light.position;
+    shadow.bias = float(depth_bias(reach_, far));
+    for (int face = 0; face < 6; ++face) {
+      dvec3 direction{0.0};
+      direction[face / 2] = face % 2 ? -1 : 1;
+      add(shadow, camera, view_along(direction, light.position), side,
+          std::numeric_limits<double>::infinity(), 2 * half / side);
+    }
   }
 
  private:
@@ -168,9 +194,9 @@ class Caster {
     return ends;
   }
 
-  void add(LightShadow& shadow, const Camera& camera, const dmat4& view, double end,
+  void add(LightShadow& shadow, const Camera& camera, const dmat4& view, int side, double end,
            double texel) const {
-    const Frame map = map_frame(scene_, frame_, camera, view, options_.side);
+    const Frame map = map_frame(scene_, frame_, camera, view, side);
     dmat4 unit(1.0);
     unit[0][0] = unit[1][1] = 0.5;
     unit[3] = dvec4(0.5, 0.5, 0, 1);
@@ -210,6 +236,7 @@ std::vector<LightShadow> cast_shadows(const Scene& scene, const Frame& frame,
     shadow.radius = options.radius;
     if (light.light.kind == LightKind::directional) caster.directional(light.direction, shadow);
     if (light.light.kind == LightKind::spot) caster.spot(light, shadow);
+    if (light.light.kind == LightKind::point) caster.point(light, shadow);
     if (!shadow.cascades.empty()) shadows.push_back(std::move(shadow));
   }
   return shadows;

@@ -11,10 +11,10 @@ struct ShadowOptions {
   int radius = 1;   ///< texels, 0 to 8: the filter is 2 radius + 1 wide
 };
 
-/// Draws the shadow maps of a frame's directional and spot lights, the first most_shadows of them;
-/// point lights have none. A directional light has as many cascades as the view of the scene is
-/// deep, up to 4; a spot light reaches to the sides of its cone, at most 80 degrees from its axis.
-/// What is blended casts no shadow, nor does the back of what is single-sided.
+/// Draws the shadow maps of a frame's lights, the first most_shadows of them. A directional light
+/// has as many cascades as the view of the scene is deep, up to 4; a spot light reaches to the
+/// sides of its cone, at most 80 degrees from its axis; a point light has a cube of maps of half
+/// the side. What is blended casts no shadow, nor does the back of what is single-sided.
 ///
 /// @param depths_of  renders a frame and returns its depths.
 /// @throws std::invalid_argument  options out of range.

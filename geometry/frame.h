@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/behind.h"
 #include "geometry/environment.h"
 #include "geometry/scene.h"
 #include "geometry/shadow.h"
@@ -60,6 +61,12 @@ struct Frame {
   std::optional<EnvironmentLight> environment;
   /// What hides lights, at most most_shadows of them; cast_shadows makes them.
   std::vector<LightShadow> shadows;
+  /// Share of the light from all around that reaches each place of the picture, of any size, by
+  /// ambient occlusion; empty: all. For what is not blended.
+  Grid<float> openness;
+  /// What is seen through what transmits light; look_behind makes it. None: the surroundings alone,
+  /// and, unrefracted, what is blended.
+  std::optional<BehindPicture> behind;
 };
 
 constexpr std::size_t most_shadows = 8;

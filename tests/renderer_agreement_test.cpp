@@ -4,6 +4,7 @@
 
 #include "geometry/environment.h"
 #include "geometry/input_error.h"
+#include "geometry/opaque_frame.h"
 #include "geometry/scene_io.h"
 #include "gpu/raster/renderer.h"
 #include "gpu/shading/prefilter.h"
@@ -49,7 +50,10 @@ TEST_P(RenderersAgree, OnEveryJudgedPixel) {
   Scene scene = load_scene(*shared_data("data/gltf/" + GetParam()));
   for (Texture& texture : scene.textures) texture.sampler.max_anisotropy = default_max_anisotropy;
   for (const int samples : {1, 4}) {
-    const Frame frame = make_frame(scene, {.width = 149, .height = 101, .samples = samples});
+    Frame frame = make_frame(scene, {.width = 149, .height = 101, .samples = samples});
+    frame.behind = look_behind(scene, frame, [&](const Frame& opaque) {
+      return gpu::render(test_context(), scene, opaque).color;
+    });
     const raster_test::Agreement agreement =
         raster_test::draw_and_compare(test_context(), scene, frame);
     EXPECT_EQ(agreement.wrong(), 0u) << samples << " samples: " << agreement.text();

@@ -49,7 +49,7 @@ struct Wall {
     stage.add_light(light);
     frame = stage.frame();
     frame.lights[0].direction =
-        kind == LightKind::spot ? glm::normalize(dvec3(1, 0, -3)) : direction;
+        kind == LightKind::directional ? direction : glm::normalize(dvec3(1, 0, -3));
     frame.lights[0].position = light_position;
   }
 
@@ -90,7 +90,7 @@ void expect_shadow(const Wall& wall, const Grid<vec4>& with, const Grid<vec4>& w
 }
 
 TEST_F(GpuRenderer, ASquareCastsTheShadowThatGeometrySays) {
-  for (const LightKind kind : {LightKind::directional, LightKind::spot}) {
+  for (const LightKind kind : {LightKind::directional, LightKind::spot, LightKind::point}) {
     SCOPED_TRACE(int(kind));
     Wall wall(kind);
     const Scene& scene = wall.stage.scene;
@@ -142,7 +142,7 @@ TEST_F(GpuRenderer, ShadowsAreThoseOfTheReference) {
   frame.shadows = cast_on_device(scene, frame);
   const std::vector<LightShadow> host = cast_on_host(scene, frame);
   ASSERT_EQ(frame.shadows.size(), host.size());
-  ASSERT_EQ(host.size(), 2u) << "a sun and a spot; the lamp has none";
+  ASSERT_EQ(host.size(), 3u) << "a sun, a spot and a lamp";
   for (std::size_t i = 0; i < host.size(); ++i)
     for (std::size_t k = 0; k < host[i].cascades.size(); ++k) {
       const Grid<float>& a = frame.shadows[i].cascades[k].depths;

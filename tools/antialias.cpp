@@ -46,6 +46,8 @@ Frame remade(const Scene& scene, const Frame& frame, const FrameOptions& options
   Frame result = make_frame(scene, options);
   result.environment = frame.environment;
   result.shadows = frame.shadows;
+  result.openness = frame.openness;
+  result.behind = frame.behind;
   return result;
 }
 

@@ -1,6 +1,7 @@
 #include <omp.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -11,17 +12,21 @@
 
 #include "cpu_reference/raster/renderer.h"
 #include "cpu_reference/raster/srgb.h"
+#include "cpu_reference/shading/ambient_occlusion.h"
 #include "cpu_reference/shading/prefilter.h"
 #include "cpu_reference/shading/tone_map.h"
+#include "geometry/ambient_occlusion.h"
 #include "geometry/atomic_file.h"
 #include "geometry/cast_shadows.h"
 #include "geometry/environment.h"
 #include "geometry/frame.h"
 #include "geometry/image_io.h"
+#include "geometry/opaque_frame.h"
 #include "geometry/scene_io.h"
 #include "gpu/core/context.h"
 #include "gpu/raster/encode_srgb.h"
 #include "gpu/raster/renderer.h"
+#include "gpu/shading/ambient_occlusion.h"
 #include "gpu/shading/prefilter.h"
 #include "gpu/shading/tone_map.h"
 #include "tools/antialias.h"
@@ -112,6 +117,7 @@ struct Task {
   bool display = false;  ///< 8-bit output
 
   bool casts_shadows() const { return arguments.shadows == "on"; }
+  bool occludes() const { return arguments.ambient_occlusion == "on"; }
   bool shows_environment() const { return environment && arguments.background.empty(); }
   void finish(Picture& picture) const {
     if (shows_environment()) show_environment(environment->backdrop, frame, picture);
@@ -126,10 +132,20 @@ Job render_on_cpu(Task& task) {
   const double start = seconds_now();
   if (task.environment)
     task.frame.environment = cpu::prefilter(task.environment->light, environment_samples);
+  const auto depths_of = [&](const Frame& frame) {
+    return cpu::render(task.scene, frame, {.colors = false}).picture.depth;
+  };
   if (task.casts_shadows())
-    task.frame.shadows = cast_shadows(task.scene, task.frame, {}, [&](const Frame& map) {
-      return cpu::render(task.scene, map, {.colors = false}).picture.depth;
-    });
+    task.frame.shadows = cast_shadows(task.scene, task.frame, {}, depths_of);
+  if (task.occludes()) {
+    const Grid<double> open =
+        cpu::ambient_occlusion(occlusion_problem(task.scene, task.frame, {}, depths_of));
+    task.frame.openness = Grid<float>(open.width(), open.height());
+    std::copy(open.begin(), open.end(), task.frame.openness.begin());
+  }
+  task.frame.behind = look_behind(task.scene, task.frame, [&](const Frame& frame) {
+    return cpu::render(task.scene, frame).picture.color;
+  });
   if (const auto mode = antialiasing(a))
     take(job, render_antialiased(task.scene, task.frame, *mode));
   else
@@ -160,9 +176,14 @@ Job render_on_gpu(Task& task) {
   if (task.environment)
     task.frame.environment = gpu::prefilter(context, task.environment->light, environment_samples);
   gpu::Renderer renderer(context, task.scene);
+  const auto depths_of = [&](const Frame& frame) { return renderer.render(frame).depth; };
   if (task.casts_shadows())
-    task.frame.shadows = cast_shadows(task.scene, task.frame, {},
-                                      [&](const Frame& map) { return renderer.render(map).depth; });
+    task.frame.shadows = cast_shadows(task.scene, task.frame, {}, depths_of);
+  if (task.occludes())
+    task.frame.openness =
+        gpu::ambient_occlusion(context, occlusion_problem(task.scene, task.frame, {}, depths_of));
+  task.frame.behind = look_behind(task.scene, task.frame,
+                                  [&](const Frame& frame) { return renderer.render(frame).color; });
   if (const auto mode = antialiasing(a))
     take(job, render_antialiased(context, task.scene, task.frame, *mode, a.exposure));
   else
@@ -333,7 +354,12 @@ void add_render_verb(CLI::App& app, int& exit_code) {
       "A picture of the light from all around (equirectangular .hdr or .exr), or its radiance, "
       "linear: l or r,g,b (default: 0 if the scene has lights)");
   verb->add_option("--shadows", a->shadows,
-                   "Shadows of directional and spot lights, by shadow maps")
+                   "Shadows of directional, spot and point lights, by shadow maps")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->capture_default_str();
+  verb->add_option("--ambient-occlusion", a->ambient_occlusion,
+                   "Less light from all around in corners, by what is near in the picture; an "
+                   "approximation that costs one more pass")
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
   verb->add_option("--depth", a->depth, "Depth buffer")
@@ -351,6 +377,7 @@ void add_render_verb(CLI::App& app, int& exit_code) {
       "  parity render bunny.ply -o bunny.png --size 1024x1024 --background transparent\n"
       "  parity render scene.gltf -o scene.exr --camera 1 --msaa 8 --metrics scene.json\n"
       "  parity render scene.glb -o lit.png --environment studio.hdr --tone-map agx\n"
+      "  parity render room.glb -o room.png --environment 0.5 --ambient-occlusion on\n"
       "  parity render scene.glb -o reference.png --backend cpu\n"
       "  parity render scene.glb -o smooth.png --aa auto --max-error 0.002");
   verb->callback([a, &exit_code] {

@@ -24,6 +24,7 @@ struct RenderArguments {
   std::string environment;
   std::string tone_map = "neutral";
   std::string shadows = "on";
+  std::string ambient_occlusion = "off";
   double exposure = 0;
   int msaa = 4;
   std::string aa;

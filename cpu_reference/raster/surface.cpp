@@ -249,6 +249,7 @@ Shaded<double> shade_at(const ElementSurface& s, const ShadingScene& scene, int 
     ShadingPoint<double> point = shading_point(s, x, y, back);
     for (std::size_t i = 0; scene.shadows != nullptr && i < scene.shadows->size(); ++i)
       point.visible[i] = visibility((*scene.shadows)[i], shadow_query(point, scene)).value;
+    point.openness = openness_at(scene, *s.material, x, y);
     return shade(*s.material, scene, point);
   }
   const dvec4 color =

@@ -322,6 +322,7 @@ dvec4 arithmetic(const ShadingPoint<double>& point,
   exact.visible = visible;
   for (std::size_t i = 0; i < shading_input::count; ++i) exact.inputs[i] = point.inputs[i];
   exact.back = point.back;
+  exact.openness = point.openness;
   const Shaded<Interval> range = shade(material, scene, exact);
   return {deviation(range.rgb[0], value.x), deviation(range.rgb[1], value.y),
           deviation(range.rgb[2], value.z), deviation(range.alpha, value.w)};
@@ -363,6 +364,7 @@ BoundedColor shade_with_bound(const PlacedDraw& draw, std::uint32_t element,
   if (s.topology != Topology::triangles) return line_or_point(draw, element, s, error, x, y);
   BoundedPoint p = bounded_point(draw, element, s, error, limits, scene.eye, {x, y}, back);
   if (!s.material->unlit) bound_shadows(p, scene);
+  p.point.openness = openness_at(scene, *s.material, x, y);
   BoundedColor color;
   color.value = as_vector(shade(*s.material, scene, p.point));
   Slopes slopes{};

@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "cpu_reference/shading/behind.h"
 #include "cpu_reference/shading/lookup.h"
 #include "cpu_reference/shading/triple.h"
 #include "geometry/albedo_table.h"
@@ -47,6 +48,8 @@ struct Surface {
   bool thick = false;
   bool see_through = false;  ///< what is behind is blended
   Real index{1.5};
+  Real depth{};           ///< m, along the refracted ray
+  Triple<Real> position;  ///< relative to the eye
 };
 
 /// D V of an isotropic GGX: glTF 2.0, B.3.2.
@@ -136,6 +139,8 @@ Triple<Real> reflected(const Surface<Real>& s, const Triple<Real>& to_light, con
 struct Surroundings {
   dvec3 uniform{0.0};
   const EnvironmentLight* light = nullptr;
+  const BehindPicture* behind = nullptr;  ///< what is opaque; may be null
+  dvec3 eye{0.0};
 };
 
 template <class Real>
@@ -164,16 +169,15 @@ Triple<Real> mirror_direction(const Surface<Real>& s) {
   return reflection(s.to_eye, normalized(leaning * (Real(1.0) - s.bend) + s.normal * s.bend));
 }
 
-/// What is behind a surface that light passes, of the surroundings alone.
+/// The way of the eye's ray within a surface that light passes: refracted unless it is thin.
 template <class Real>
-Triple<Real> through(const Surface<Real>& s, const Surroundings& around) {
-  const Real rough = s.roughness * clamped(Real(2.0) * s.index - Real(2.0), 0.0, 1.0);
-  if (!s.thick) return mirror_radiance(around, s.to_eye * Real(-1.0), rough);
+Triple<Real> way_through(const Surface<Real>& s) {
+  if (!s.thick) return s.to_eye * Real(-1.0);
   const Real ratio = Real(1.0) / s.index;
   const Real cosine = dot(s.normal, s.to_eye);
   const Real inside =
       square_root(most(Real(1.0) - square(ratio) * (Real(1.0) - square(cosine)), Real(0.0)));
-  return mirror_radiance(around, s.normal * (ratio * cosine - inside) - s.to_eye * ratio, rough);
+  return s.normal * (ratio * cosine - inside) - s.to_eye * ratio;
 }
 
 /// What comes from all around, and how much of what is behind is to be seen.
@@ -183,14 +187,36 @@ struct Surrounded {
   Real open{};  ///< 0 to 1
 };
 
+/// What passes a surface: the opaque where it is, else the surroundings. What all channels pass
+/// alike of what is empty behind the surface both straight and refracted is left to blending,
+/// unless a picture of the surroundings fills it; without a picture of the opaque, wherever that
+/// is.
+template <class Real>
+Surrounded<Real> passed(const Surface<Real>& s, const Surroundings& around,
+                        const Triple<Real>& passing) {
+  const Real rough = s.roughness * clamped(Real(2.0) * s.index - Real(2.0), 0.0, 1.0);
+  const Triple<Real> way = way_through(s);
+  const Triple<Real> beyond = mirror_radiance(around, way, rough);
+  Real open{0.0};
+  if (s.see_through) open = clamped(smallest(passing), 0.0, 1.0 - 1.0 / 256);
+  if (around.behind == nullptr) return {(passing - all(open)) * beyond, open};
+  const auto seen = picture_behind(*around.behind, around.eye, s.position + way * s.depth, rough);
+  const Real empty = Real(1.0) - seen[3];
+  const auto straight = picture_behind(*around.behind, around.eye, s.position, Real(0.0));
+  open = around.light ? Real(0.0) : open * empty * (Real(1.0) - straight[3]);
+  return {
+      passing * Triple<Real>{seen[0], seen[1], seen[2]} + (passing * empty - all(open)) * beyond,
+      open};
+}
+
 /// Source: Fdez-Aguera 2019, "A Multiple-Scattering Microfacet Model for Real-Time Image-based
 /// Lighting"; KHR_materials_*.
-/// The light behind a transmissive surface that all channels pass alike is left to blending:
-/// `open`.
+///
+/// @param openness  share of the light that is not mirrored that arrives.
 template <class Real>
-Surrounded<Real> surrounded(const Surface<Real>& s, const Surroundings& around) {
+Surrounded<Real> surrounded(const Surface<Real>& s, const Surroundings& around, double openness) {
   const Triple<Real> mirror = mirror_radiance(around, mirror_direction(s), s.roughness);
-  const Triple<Real> mean = mean_radiance(around, s.normal);
+  const Triple<Real> mean = mean_radiance(around, s.normal) * Real(openness);
   const Real total = s.albedo.x + s.albedo.y;
   const Real lost = Real(1.0) - total;
   const auto several = [&](const Real& single, const Real& f0) {
@@ -205,8 +231,9 @@ Surrounded<Real> surrounded(const Surface<Real>& s, const Surroundings& around) 
   Triple<Real> body = s.diffuse * entering * mean;
   if (s.transmits) {
     const Triple<Real> passing = s.tint * entering * s.transmission;
-    if (s.see_through) result.open = clamped(smallest(passing), 0.0, 1.0 - 1.0 / 256);
-    body = body * (Real(1.0) - s.transmission) + (passing - all(result.open)) * through(s, around);
+    const Surrounded<Real> through = passed(s, around, passing);
+    result.open = through.open;
+    body = body * (Real(1.0) - s.transmission) + through.radiance;
   }
   result.radiance = single * mirror + more * mean + body;
   if (s.fibrous) {

@@ -1,6 +1,8 @@
 #include "cpu_reference/shading/metallic_roughness.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include "cpu_reference/shading/layers.h"
@@ -143,12 +145,12 @@ void add_transmission(const Material& m, const ShadingPoint<Real>& p, Surface<Re
   s.index = Real(m.ior > 0 ? double(m.ior) : 1.0);
   s.transmission = Real(double(m.transmission.factor)) * p.inputs[input::transmission_texture];
   s.tint = s.diffuse;
+  s.depth = Real(double(m.transmission.thickness)) * p.inputs[input::thickness_texture];
   if (!s.thick || std::isinf(m.transmission.attenuation_distance)) return;
-  const Real depth = Real(double(m.transmission.thickness)) * p.inputs[input::thickness_texture];
   const auto left = [&](float color) {
     const double exponent =
         std::log2(std::max(double(color), 1e-6)) / double(m.transmission.attenuation_distance);
-    return exp2_of(rounded<Real>(exponent) * depth);
+    return exp2_of(rounded<Real>(exponent) * s.depth);
   };
   const vec3& color = m.transmission.attenuation_color;
   s.tint = s.tint * Triple<Real>{left(color.x), left(color.y), left(color.z)};
@@ -165,6 +167,7 @@ Surface<Real> surface_at(const Material& m, const ShadingScene& scene, const Sha
                  ? triple<Real>(scene.backward)
                  : normalized(triple<Real>(scene.eye) - inputs_at(p, input::position));
   s.n_dot_v = facing(s.normal, s.to_eye);
+  s.position = inputs_at(p, input::position) - triple<Real>(scene.eye);
   add_base(m, p, base, s);
   add_film(m, p, s);
   s.albedo = tabulated_albedo(albedo_table(), s.n_dot_v, s.roughness);
@@ -199,7 +202,7 @@ Shaded<Real> lit(const Material& m, const ShadingScene& scene, const ShadingPoin
   if (!is_dark(scene.around) || s.transmits) {
     const Real occlusion = Real(1.0) + Real(double(m.occlusion_strength)) *
                                            (p.inputs[input::occlusion_texture] - Real(1.0));
-    const Surrounded<Real> around = surrounded(s, scene.around);
+    const Surrounded<Real> around = surrounded(s, scene.around, p.openness);
     sum = sum + around.radiance * occlusion;
     if (s.transmits) {
       alpha = Real(1.0) - around.open;
@@ -214,12 +217,22 @@ Shaded<Real> lit(const Material& m, const ShadingScene& scene, const ShadingPoin
 ShadingScene shading_scene(const Frame& frame) {
   const EnvironmentLight* light = frame.environment ? &*frame.environment : nullptr;
   ShadingScene scene{frame.eye,          frame.backward,
-                     frame.orthographic, {dvec3(frame.ambient), light},
+                     frame.orthographic, {dvec3(frame.ambient), light, nullptr, frame.eye},
                      frame.lights,       std::vector<int>(frame.lights.size(), -1)};
   for (std::size_t i = 0; i < frame.shadows.size(); ++i)
     scene.shadow_of_light[std::size_t(frame.shadows[i].light)] = int(i);
   if (!frame.shadows.empty()) scene.shadows = &frame.shadows;
+  if (!frame.openness.empty()) scene.openness = &frame.openness;
+  if (frame.behind) scene.around.behind = &*frame.behind;
+  scene.size = {frame.options.width, frame.options.height};
   return scene;
+}
+
+double openness_at(const ShadingScene& scene, const Material& material, int x, int y) {
+  if (scene.openness == nullptr || is_blended(material)) return 1;
+  const Grid<float>& g = *scene.openness;
+  return double(g(std::min(int(std::int64_t(x) * g.width() / scene.size.x), g.width() - 1),
+                  std::min(int(std::int64_t(y) * g.height() / scene.size.y), g.height() - 1)));
 }
 
 template <class Real>

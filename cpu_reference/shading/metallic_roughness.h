@@ -48,6 +48,8 @@ struct ShadingPoint {
   bool back = false;                       ///< seen from behind: the normal turns over
   std::array<Real, most_shadows> visible;  ///< share of the light of each of Frame::shadows
 
+  double openness = 1;  ///< share of the light from all around that arrives, but for mirrors
+
   ShadingPoint() { visible.fill(Real(1.0)); }
 };
 
@@ -60,7 +62,12 @@ struct ShadingScene {
   std::vector<PlacedLight> lights;
   std::vector<int> shadow_of_light;                   ///< -1: nothing hides it
   const std::vector<LightShadow>* shadows = nullptr;  ///< may be null
+  const Grid<float>* openness = nullptr;              ///< Frame::openness; may be null
+  ivec2 size{1};                                      ///< of the picture, px
 };
+/// Of a material at a pixel.
+double openness_at(const ShadingScene& scene, const Material& material, int x, int y);
+
 /// Refers to the frame's environment and shadows.
 ShadingScene shading_scene(const Frame& frame);
 

@@ -76,7 +76,7 @@ Doubtful quotient(const Doubtful& a, const Doubtful& b) {
                      4 * half_ulp * std::abs(value)};
 }
 
-Visibility in_cascade(const LightShadow& shadow, std::size_t k, const ShadowQuery& query) {
+Visibility in_map(const LightShadow& shadow, std::size_t k, const ShadowQuery& query) {
   const ShadowCascade& cascade = shadow.cascades[k];
   dmat4 from_origin(1.0);
   from_origin[3] = dvec4(query.origin, 1);
@@ -112,9 +112,42 @@ Visibility in_cascade(const LightShadow& shadow, std::size_t k, const ShadowQuer
   return result;
 }
 
+/// The face of a cube that shows what lies that way.
+std::size_t face_toward(const dvec3& way) {
+  std::size_t face = 0;
+  double most = -1;
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::abs(way[axis]) > most) {
+      most = std::abs(way[axis]);
+      face = std::size_t(2 * axis + (way[axis] < 0 ? 1 : 0));
+    }
+  return face;
+}
+
+/// Where the largest component is in doubt any of the faces may be asked.
+Visibility in_cube(const LightShadow& shadow, const ShadowQuery& query) {
+  const dvec3 way = query.position - shadow.center;
+  const dvec3 error = query.position_error + 4 * half_ulp *
+                                                 (glm::abs(query.position - query.origin) +
+                                                  glm::abs(shadow.center - query.origin));
+  double most = 0;
+  for (int axis = 0; axis < 3; ++axis) most = std::max(most, std::abs(way[axis]) - error[axis]);
+  const std::size_t right = face_toward(way);
+  Visibility result = in_map(shadow, right, query);
+  for (std::size_t face = 0; face < 6; ++face) {
+    const int axis = int(face / 2);
+    if (face == right || (face % 2 ? -way[axis] : way[axis]) + error[axis] < most) continue;
+    const Visibility other = in_map(shadow, face, query);
+    result.low = std::min(result.low, other.low);
+    result.high = std::max(result.high, other.high);
+  }
+  return result;
+}
+
 }  // namespace
 
 Visibility visibility(const LightShadow& shadow, const ShadowQuery& query) {
+  if (shadow.is_cube) return in_cube(shadow, query);
   const double distance = glm::dot(shadow.forward, query.position) + shadow.offset;
   const double from_origin = std::abs(glm::dot(shadow.forward, query.origin) + shadow.offset);
   const double error =
@@ -128,7 +161,7 @@ Visibility visibility(const LightShadow& shadow, const ShadowQuery& query) {
     const double end = shadow.cascades[k].end;
     const double doubt = 2 * error;  // ends are rounded as distances are
     if (distance <= end + doubt && distance >= begin - doubt) {
-      const Visibility one = in_cascade(shadow, k, query);
+      const Visibility one = in_map(shadow, k, query);
       const bool is_right = distance <= end && distance > begin;
       const bool is_first = !is_found;
       is_found = true;

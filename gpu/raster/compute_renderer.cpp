@@ -35,6 +35,8 @@ std::vector<Specialization> shade_constants(const SceneBuffers& scene, RenderOpt
   constants.push_back({25, scene.features().metals});
   constants.push_back({23, frame.environment.has_value()});
   constants.push_back({24, !frame.shadows.empty()});
+  constants.push_back({26, !frame.openness.empty()});
+  constants.push_back({27, frame.behind.has_value()});
   return constants;
 }
 
@@ -72,6 +74,8 @@ ComputeRenderer::Target::Target(Context& context, const SceneBuffers& scene, Ren
     : rasterizer(context, rasterizer_options(frame, item_count)),
       has_environment(frame.environment.has_value()),
       has_shadows(!frame.shadows.empty()),
+      has_openness(!frame.openness.empty()),
+      has_behind(frame.behind.has_value()),
       triangles_kernel(context, shaders::raster_scene_triangles_comp),
       shade_kernel(context, shaders::raster_scene_shade_comp,
                    shade_constants(scene, options, frame)),
@@ -88,7 +92,9 @@ bool ComputeRenderer::Target::fits(const Frame& frame, std::uint32_t item_count)
   return have.width == want.width && have.height == want.height && have.samples == want.samples &&
          have.depth == want.depth && have.near == want.near && have.far == want.far &&
          have.triangle_capacity == want.triangle_capacity &&
-         has_environment == frame.environment.has_value() && has_shadows == !frame.shadows.empty();
+         has_environment == frame.environment.has_value() &&
+         has_shadows == !frame.shadows.empty() && has_openness == !frame.openness.empty() &&
+         has_behind == frame.behind.has_value();
 }
 
 void ComputeRenderer::record(Commands& commands, const Frame& frame, const Buffer<SceneArgs>& args,

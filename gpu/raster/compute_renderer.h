@@ -38,6 +38,8 @@ class ComputeRenderer {
     TileRasterizer rasterizer;
     bool has_environment;
     bool has_shadows;
+    bool has_openness;
+    bool has_behind;
     Kernel<SceneTriangleArgs> triangles_kernel;
     Kernel<SceneShadeArgs> shade_kernel;
     Buffer<vec4> clip_positions;

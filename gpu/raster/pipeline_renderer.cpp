@@ -123,7 +123,9 @@ PipelineRenderer::Key PipelineRenderer::key_of(const Frame& frame, const SceneFr
           frame.environment.has_value(),
           scene_.has_layers(draw.material),
           scene_.is_metallic(draw.material),
-          data.has_shadows()};
+          data.has_shadows(),
+          !frame.openness.empty(),
+          frame.behind.has_value()};
 }
 
 const RasterPipeline<SceneArgs>& PipelineRenderer::pipeline(const Key& key) {
@@ -151,6 +153,8 @@ const RasterPipeline<SceneArgs>& PipelineRenderer::pipeline(const Key& key) {
   options.specializations.push_back({25, key.metallic});
   options.specializations.push_back({23, key.environment});
   options.specializations.push_back({24, key.shadows});
+  options.specializations.push_back({26, key.openness});
+  options.specializations.push_back({27, key.behind});
   if (options_.general) options.specializations = general_specializations(options.specializations);
   const ShaderCode& vertex =
       key.is_plain ? shaders::raster_scene_plain_vert : shaders::raster_scene_vert;

@@ -48,6 +48,8 @@ class PipelineRenderer {
     bool layers = false;  ///< the material has extensions
     bool metallic = false;
     bool shadows = false;
+    bool openness = false;
+    bool behind = false;
     auto operator<=>(const Key&) const = default;
   };
 

@@ -1,6 +1,7 @@
 #include "gpu/raster/renderer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "gpu/raster/compute_renderer.h"
 #include "gpu/raster/pipeline_renderer.h"
@@ -22,10 +23,11 @@ Context& checked(Context& context) {
 bool can_render(const DeviceInfo& device) { return !device.is_swiftshader; }
 
 struct Renderer::State {
-  State(Context& device, const Scene& scene, RenderOptions render_options)
+  State(Context& device, const Scene& scene, RenderOptions render_options,
+        std::vector<LevelRange> levels)
       : context(device),
         bytes_before(device.memory_bytes()),
-        buffers(device, scene),
+        buffers(device, scene, std::move(levels)),
         blended(scene),
         pipelines(device, buffers, render_options),
         kernels(device, buffers, render_options) {}
@@ -38,8 +40,9 @@ struct Renderer::State {
   ComputeRenderer kernels;
 };
 
-Renderer::Renderer(Context& context, const Scene& scene, RenderOptions options)
-    : state_(std::make_unique<State>(checked(context), scene, options)) {}
+Renderer::Renderer(Context& context, const Scene& scene, RenderOptions options,
+                   std::vector<LevelRange> levels)
+    : state_(std::make_unique<State>(checked(context), scene, options, std::move(levels))) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
@@ -58,7 +61,9 @@ Picture Renderer::render(const Frame& frame) {
 }
 
 Picture render(Context& context, const Scene& scene, const Frame& frame, RenderOptions options) {
-  return Renderer(context, scene, options).render(frame);
+  std::vector<LevelRange> levels;
+  if (!options.general) levels = read_levels(scene, frame);
+  return Renderer(context, scene, options, std::move(levels)).render(frame);
 }
 
 }  // namespace parity::gpu

@@ -4,6 +4,7 @@
 
 #include "geometry/frame.h"
 #include "geometry/scene.h"
+#include "geometry/texture_levels.h"
 #include "gpu/core/context.h"
 
 namespace parity::gpu {
@@ -27,8 +28,12 @@ bool can_render(const DeviceInfo& device);
 /// Source: notes 1, 2, 6.2, 6.3; glTF 2.0, section 3.9 and appendix B.
 class Renderer {
  public:
+  /// @param levels  what the frames to come read of each image (read_levels); none: all. Frames
+  /// that
+  ///                read more show what is nearest to it.
   /// @throws Error  the scene does not fit the device, or it cannot render.
-  Renderer(Context& context, const Scene& scene, RenderOptions options = {});
+  Renderer(Context& context, const Scene& scene, RenderOptions options = {},
+           std::vector<LevelRange> levels = {});
   ~Renderer();
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
@@ -45,7 +50,8 @@ class Renderer {
   std::unique_ptr<State> state_;
 };
 
-/// One frame of a scene.
+/// One frame of a scene: of its textures only what that reads is made, unless all is asked for
+/// (RenderOptions::general).
 Picture render(Context& context, const Scene& scene, const Frame& frame,
                RenderOptions options = {});
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "geometry/albedo_table.h"
 #include "geometry/color.h"
@@ -124,15 +127,19 @@ std::vector<bool> images_with_mips(const Scene& scene) {
 
 }  // namespace
 
-SceneBuffers::SceneBuffers(Context& context, const Scene& scene)
+SceneBuffers::SceneBuffers(Context& context, const Scene& scene, std::vector<LevelRange> levels)
     : indices_(pool_bytes(context)),
       vectors_(pool_bytes(context)),
       tangents_and_colors_(pool_bytes(context)),
       uvs_(pool_bytes(context)),
       mip_pyramid_(context),
       mipmapped_(images_with_mips(scene)),
+      levels_(std::move(levels)),
       linear_from_srgb_(context, srgb_table()),
       albedo_table_(context, parity::albedo_table().values()) {
+  if (!levels_.empty() && levels_.size() != scene.images.size())
+    throw std::invalid_argument("gpu::SceneBuffers: levels of " + std::to_string(levels_.size()) +
+                                " images, there are " + std::to_string(scene.images.size()));
   add_materials(context, scene);
   for (const SceneMesh& mesh : scene.meshes) {
     std::vector<PrimitiveSlices>& slices = primitives_.emplace_back();
@@ -185,7 +192,7 @@ void SceneBuffers::add_material(Context& context, const Scene& scene, const Mate
                         .height = std::uint32_t(image.height),
                         .level_count = std::uint32_t(image.level_count),
                         .flags = std::uint32_t(role) | slot << texture_slot_shift |
-                                 sampler_flags(texture.sampler)});
+                                 sampler_flags(texture.sampler) | image.flags});
   }
   features_.normal_maps |= needs_tangents(material) && !material.unlit;
   entry.texture_count = std::uint32_t(textures.size()) - entry.first_texture;
@@ -206,15 +213,27 @@ const SceneBuffers::Texels& SceneBuffers::texels(Context& context, const Scene& 
                                                  bool srgb) {
   const auto [place, is_new] = images_.try_emplace({image, srgb});
   if (!is_new) return place->second;
-  const Grid<u8vec4>& grid = scene.images[std::size_t(image)];
-  std::vector<MipLevel> levels = mip_levels(grid.width(), grid.height());
-  if (!mipmapped_[std::size_t(image)]) levels.resize(1);
+  const LevelRange range = levels_.empty() ? LevelRange{0, 99} : levels_[std::size_t(image)];
+  // What is not seen at all is one texel.
+  static const Grid<u8vec4> unseen{1, 1};
+  const Grid<u8vec4>& grid = range.empty() ? unseen : scene.images[std::size_t(image)];
+  const std::vector<MipLevel> levels = mip_levels(grid.width(), grid.height());
+  const std::size_t count = mipmapped_[std::size_t(image)] ? levels.size() : 1;
+  const auto clamped = [&](int level) {
+    return std::clamp<std::size_t>(std::size_t(level), 0, count - 1);
+  };
+  const std::size_t first = range.empty() ? 0 : clamped(range.least);
+  const std::size_t last = range.empty() ? 0 : clamped(range.greatest);
   std::vector<std::uint32_t> begins;
-  for (const MipLevel& level : levels) begins.push_back(std::uint32_t(levels.size() + level.first));
-  Buffer<std::uint32_t> words =
-      build_pyramid(context, mip_pyramid_, grid, srgb, {begins.size(), levels.size()});
+  for (std::size_t i = 0; i < count; ++i)
+    begins.push_back(
+        std::uint32_t(count + levels[std::clamp(i, first, last)].first - levels[first].first));
+  Buffer<std::uint32_t> words = build_pyramid(context, mip_pyramid_, grid, srgb,
+                                              {.head = count, .first = first, .last = last});
   words.write(begins);
-  place->second = {std::move(words), grid.width(), grid.height(), int(levels.size())};
+  place->second = {std::move(words), grid.width(), grid.height(), int(count),
+                   std::uint32_t(first) << texture_first_level_shift |
+                       std::uint32_t(15 - last) << texture_last_level_shift};
   return place->second;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/scene.h"
+#include "geometry/texture_levels.h"
 #include "gpu/core/buffer.h"
 #include "gpu/raster/pool.h"
 #include "gpu/texture/mip_pyramid.h"
@@ -40,8 +41,10 @@ class SceneBuffers {
     std::vector<std::optional<Pool<vec2>::Slice>> uvs;  ///< by TEXCOORD_n
   };
 
+  /// @param levels  of each image that will be read; none: all.
   /// @throws Error  out of memory, or an image or array is larger than a buffer may be.
-  SceneBuffers(Context& context, const Scene& scene);
+  /// @throws std::invalid_argument  levels of another number of images.
+  SceneBuffers(Context& context, const Scene& scene, std::vector<LevelRange> levels = {});
 
   const SceneFeatures& features() const { return features_; }
   const PrimitiveSlices& primitive(int mesh, int primitive) const {
@@ -74,6 +77,7 @@ class SceneBuffers {
     int width = 0;
     int height = 0;
     int level_count = 0;
+    std::uint32_t flags = 0;  ///< which levels are there
   };
   using ImageKey = std::pair<int, bool>;  ///< image, decoded from sRGB
 
@@ -92,6 +96,7 @@ class SceneBuffers {
   MipPyramid mip_pyramid_;
   std::map<ImageKey, Texels> images_;
   std::vector<bool> mipmapped_;            ///< by image
+  std::vector<LevelRange> levels_;         ///< by image; empty: all
   std::vector<std::vector<int>> uv_sets_;  ///< by material and slot
   std::vector<AlphaMode> alpha_modes_;     ///< by material, the default last
   std::vector<bool> double_sided_;

@@ -70,15 +70,16 @@ SceneShadow describe(const LightShadow& shadow, const dvec3& origin, BufferRef<f
   SceneShadow result{};
   dmat4 world_from_position(1.0);
   world_from_position[3] = dvec4(origin, 1);
+  // Nothing is nearer than the last end: what is beyond no cascade's.
+  result.ends = vec4(-std::numeric_limits<float>::infinity());
   for (std::size_t k = 0; k < shadow.cascades.size(); ++k) {
     const ShadowCascade& cascade = shadow.cascades[k];
     result.shadow_from_position[k] = mat4(cascade.shadow_from_world * world_from_position);
-    result.ends[int(k)] = float(cascade.end);
-    result.lifts[int(k)] = float(shadow.lift(k));
+    if (!shadow.is_cube) result.ends[int(k)] = float(cascade.end);
+    result.lifts[k] = float(shadow.lift(k));
   }
-  // Nothing is nearer than the last end: what is beyond no cascade's.
-  for (std::size_t k = shadow.cascades.size(); k < 4; ++k)
-    result.ends[int(k)] = -std::numeric_limits<float>::infinity();
+  result.is_cube = shadow.is_cube ? 1u : 0u;
+  result.center = vec3(shadow.center - origin);
   result.forward = vec3(shadow.forward);
   result.offset = float(glm::dot(shadow.forward, origin) + shadow.offset);
   result.depths = depths;
@@ -107,6 +108,38 @@ std::vector<vec4> all_texels(const EnvironmentLight& light) {
   for (const Grid<vec4>& level : light.mirrors)
     texels.insert(texels.end(), level.begin(), level.end());
   return texels;
+}
+
+std::vector<vec4> all_texels(const BehindPicture& behind) {
+  std::vector<vec4> texels;
+  for (const Grid<vec4>& level : behind.levels)
+    texels.insert(texels.end(), level.begin(), level.end());
+  return texels;
+}
+
+/// Positions stand relative to the eye.
+SceneScreen describe_screen(const Frame& frame, BufferRef<float> openness, BufferRef<vec4> behind) {
+  SceneScreen screen{};
+  screen.size = {frame.options.width, frame.options.height};
+  screen.openness = openness;
+  screen.openness_size = {frame.openness.width(), frame.openness.height()};
+  if (!frame.behind) return screen;
+  const std::vector<Grid<vec4>>& levels = frame.behind->levels;
+  if (levels.empty() || levels.size() > std::size(screen.behind_begins))
+    throw std::invalid_argument("gpu::Renderer: what is behind has " +
+                                std::to_string(levels.size()) + " levels, must be 1 to 16");
+  screen.behind = behind;
+  dmat4 world_from_position(1.0);
+  world_from_position[3] = dvec4(frame.eye, 1);
+  screen.clip_from_position = mat4(frame.behind->clip_from_world * world_from_position);
+  screen.behind_size = {levels[0].width(), levels[0].height()};
+  screen.behind_levels = std::uint32_t(levels.size());
+  std::uint32_t begin = 0;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    screen.behind_begins[i] = begin;
+    begin += std::uint32_t(levels[i].size());
+  }
+  return screen;
 }
 
 double log2_far_over_near(const Frame& frame) {
@@ -187,6 +220,7 @@ SceneFrame::SceneFrame(Context& context, const SceneBuffers& scene, BlendedPrimi
     shadows.push_back(describe(shadow, frame.eye, shadow_depths_.back()));
   }
   if (!shadows.empty()) shadow_buffer_ = Buffer<SceneShadow>(context, shadows);
+  add_screen(context, frame);
   args_ = {.draws = draw_buffer_,
            .materials = scene.materials(),
            .textures = scene.textures(),
@@ -202,10 +236,19 @@ SceneFrame::SceneFrame(Context& context, const SceneBuffers& scene, BlendedPrimi
            .near = float(frame.near),
            .log2_far_over_near = float(log2_far_over_near(frame)),
            .order = order_buffer_,
-           .shadows = shadow_buffer_};
+           .shadows = shadow_buffer_,
+           .screen = screen_};
   has_placed_lights_ = std::ranges::any_of(frame.lights, [](const PlacedLight& placed) {
     return placed.light.kind != LightKind::directional;
   });
+}
+
+void SceneFrame::add_screen(Context& context, const Frame& frame) {
+  if (frame.openness.empty() && !frame.behind) return;
+  if (!frame.openness.empty()) openness_ = Buffer<float>(context, frame.openness.values());
+  if (frame.behind) behind_ = Buffer<vec4>(context, all_texels(*frame.behind));
+  screen_ = Buffer<SceneScreen>(
+      context, std::vector<SceneScreen>{describe_screen(frame, openness_, behind_)});
 }
 
 SceneArgs SceneFrame::args_of(std::size_t draw) const {

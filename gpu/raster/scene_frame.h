@@ -49,6 +49,8 @@ class SceneFrame {
   std::uint64_t triangle_count() const { return triangle_count_; }
 
  private:
+  void add_screen(Context& context, const Frame& frame);
+
   std::vector<SceneDraw> draws_;  ///< as Frame::draws
   std::vector<uvec2> order_;
   Buffer<SceneDraw> draw_buffer_;
@@ -58,6 +60,9 @@ class SceneFrame {
   Buffer<SceneEnvironment> environment_;
   std::vector<Buffer<float>> shadow_depths_;  ///< by shadow
   Buffer<SceneShadow> shadow_buffer_;
+  Buffer<float> openness_;
+  Buffer<vec4> behind_;
+  Buffer<SceneScreen> screen_;
   SceneArgs args_{};
   bool has_placed_lights_ = false;  ///< points or spots
   std::uint64_t triangle_count_ = 0;

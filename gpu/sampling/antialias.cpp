@@ -43,6 +43,8 @@ struct RefineKey {
   bool blends;
   bool environment;  ///< a picture of it
   bool shadows;
+  bool openness;
+  bool behind;
 
   bool operator==(const RefineKey&) const = default;
 };
@@ -56,6 +58,8 @@ std::vector<Specialization> refine_constants(const SceneFeatures& features, Refi
   constants.push_back({25, features.metals});
   constants.push_back({23, key.environment});
   constants.push_back({24, key.shadows});
+  constants.push_back({26, key.openness});
+  constants.push_back({27, key.behind});
   return constants;
 }
 
@@ -263,8 +267,12 @@ void Antialiaser::State::make_lists(const Frame& moved, const SceneFrame& data) 
 }
 
 void Antialiaser::State::refine(const Frame& frame, std::uint32_t count, bool blends) {
-  const RefineKey key{frame.options.depth, blends, frame.environment.has_value(),
-                      !frame.shadows.empty()};
+  const RefineKey key{.depth = frame.options.depth,
+                      .blends = blends,
+                      .environment = frame.environment.has_value(),
+                      .shadows = !frame.shadows.empty(),
+                      .openness = !frame.openness.empty(),
+                      .behind = frame.behind.has_value()};
   if (!refine_kernel || refine_key != key)
     refine_kernel.emplace(context, shaders::sampling_refine_comp,
                           refine_constants(buffers.features(), key));

@@ -1,7 +1,10 @@
 #include "gpu/texture/mip_pyramid.h"
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "geometry/mip_pyramid.h"
 #include "shaders.h"
@@ -48,8 +51,9 @@ MipPyramid::Scratch::Scratch(Context& context, int width, int height) {
 }
 
 void MipPyramid::record(Commands& commands, BufferRef<std::uint32_t> codes, int width, int height,
-                        bool srgb, const Scratch& scratch) const {
+                        bool srgb, const Scratch& scratch, std::size_t count) const {
   const std::vector<MipLevel> levels = mip_levels(width, height);
+  const std::size_t end = std::min(levels.size(), count);
   const auto means = [&](std::size_t level) -> BufferRef<vec4> {
     return level % 2 == 0 ? scratch.even : scratch.odd;
   };
@@ -62,7 +66,7 @@ void MipPyramid::record(Commands& commands, BufferRef<std::uint32_t> codes, int 
          means(3), std::uint32_t(width), std::uint32_t(height)});
     next = 4;
   }
-  for (; next < levels.size(); ++next) {
+  for (; next < end; ++next) {
     const MipLevel& above = levels[next - 1];
     const MipLevel& level = levels[next];
     const Kernel<MipLevelArgs>& kernel =
@@ -79,23 +83,36 @@ Buffer<std::uint32_t> build_pyramid(Context& context, const MipPyramid& pyramid,
                                     const Grid<u8vec4>& image, bool srgb, PyramidRoom room) {
   if (image.empty()) throw std::invalid_argument("gpu::mip_pyramid: the image is empty");
   const std::vector<MipLevel> levels = mip_levels(image.width(), image.height());
-  const std::size_t texels = room.levels == 1 ? image.size() : levels.back().first + 1;
-  Buffer<std::uint32_t> codes(context, room.head + texels);
+  if (room.first > room.last || room.first >= levels.size())
+    throw std::invalid_argument("gpu::mip_pyramid: levels " + std::to_string(room.first) + " to " +
+                                std::to_string(room.last) + " of " + std::to_string(levels.size()));
+  const std::size_t last = std::min(room.last, levels.size() - 1);
+  // Three levels are made at once.
+  const MipLevel& made =
+      levels[last == 0 ? 0 : std::min(std::max<std::size_t>(last, 3), levels.size() - 1)];
+  const std::size_t head = room.first == 0 ? room.head : 0;
+  Buffer<std::uint32_t> codes(context, head + made.first + texels_of(made));
   std::vector<std::uint32_t> level(image.size());
   std::memcpy(level.data(), image.data(), image.size() * sizeof(std::uint32_t));
-  codes.write(level, room.head);
-  if (room.levels == 1 || levels.size() == 1) return codes;
+  codes.write(level, head);
+  if (last == 0) return codes;
   const MipPyramid::Scratch scratch(context, image.width(), image.height());
+  const std::size_t begin = levels[room.first].first;
+  const std::size_t count = levels[last].first + texels_of(levels[last]) - begin;
+  Buffer<std::uint32_t> kept;
+  if (room.first > 0) kept = Buffer<std::uint32_t>(context, room.head + count);
   context.run([&](Commands& commands) {
-    pyramid.record(commands, codes.ref(room.head), image.width(), image.height(), srgb, scratch);
+    pyramid.record(commands, codes.ref(head), image.width(), image.height(), srgb, scratch,
+                   last + 1);
+    if (room.first > 0) commands.copy(codes, kept, begin, room.head, count);
   });
-  return codes;
+  return room.first > 0 ? std::move(kept) : std::move(codes);
 }
 
 std::vector<Grid<u8vec4>> mip_pyramid(Context& context, const Grid<u8vec4>& image, bool srgb) {
   const std::vector<MipLevel> levels = mip_levels(image.width(), image.height());
   const std::vector<std::uint32_t> words =
-      build_pyramid(context, MipPyramid(context), image, srgb, {0, levels.size()}).read();
+      build_pyramid(context, MipPyramid(context), image, srgb, {}).read();
   std::vector<Grid<u8vec4>> pyramid;
   for (const MipLevel& level : levels) {
     Grid<u8vec4>& codes = pyramid.emplace_back(level.width, level.height);

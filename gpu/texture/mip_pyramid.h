@@ -26,11 +26,12 @@ class MipPyramid {
     Buffer<vec4> even, odd;
   };
 
-  /// Fills levels 1..n behind level 0.
+  /// Fills levels 1..n behind level 0, or as many that there are `count` in all (and up to two
+  /// more).
   ///
   /// @param codes  the first texel of level 0; the levels lie as mip_levels says.
   void record(Commands& commands, BufferRef<std::uint32_t> codes, int width, int height, bool srgb,
-              const Scratch& scratch) const;
+              const Scratch& scratch, std::size_t count = 99) const;
 
  private:
   Kernel<MipTripleArgs> linear_triple_, srgb_triple_;
@@ -39,13 +40,14 @@ class MipPyramid {
 
 /// How a pyramid lies in a buffer.
 struct PyramidRoom {
-  std::size_t head = 0;    ///< words before level 0, not written
-  std::size_t levels = 1;  ///< 1: level 0 only; else all
+  std::size_t head = 0;   ///< words before the first level, not written
+  std::size_t first = 0;  ///< level that is kept
+  std::size_t last = 99;  ///< at least first; coarser ones are not made
 };
 
-/// The levels of an image, RGBA8, one after another as mip_levels says.
+/// Levels of an image, RGBA8, one after another as mip_levels says.
 ///
-/// @throws std::invalid_argument  the image is empty.
+/// @throws std::invalid_argument  the image is empty; there is no first level.
 Buffer<std::uint32_t> build_pyramid(Context& context, const MipPyramid& pyramid,
                                     const Grid<u8vec4>& image, bool srgb, PyramidRoom room);
 

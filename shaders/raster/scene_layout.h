@@ -93,6 +93,8 @@ const uint texture_linear_min = 8192u;
 const uint texture_mip_nearest = 16384u;
 const uint texture_mip_linear = 32768u;
 const uint texture_anisotropy_shift = 16u;  // 5 bits: 0 or 1: none
+const uint texture_first_level_shift = 21u;  // 4 bits: finer ones are not there
+const uint texture_last_level_shift = 25u;   // 4 bits: 15 less the last one that is there
 
 struct SceneLight {
   vec3 position;   // relative to the origin, m
@@ -145,11 +147,13 @@ REF_TYPE(SceneEnvironment, 8)
 
 // What hides a light: parity::LightShadow.
 struct SceneShadow {
-  mat4 shadow_from_position[4];  // x, y of the map 0 to 1, z depth, times w
+  mat4 shadow_from_position[6];  // x, y of the map 0 to 1, z depth, times w
   vec4 ends;                     // distances along the view
-  vec4 lifts;                    // m where w is 1
+  float lifts[6];                // m where w is 1
   vec3 forward;
   float offset;
+  vec3 center;   // of a cube of maps: the light, relative to the origin
+  uint is_cube;  // maps look along +x, -x, +y, -y, +z, -z
   REF(float) depths;  // map after map
   uint side;
   uint radius;
@@ -158,7 +162,21 @@ struct SceneShadow {
 };
 REF_TYPE(SceneShadow, 8)
 
-// What all draws of a frame share, as push constants, which may be 128 bytes: 8 are left. For a draw
+// What pictures of the frame, made before, say about its places.
+struct SceneScreen {
+  REF(float) openness;  // how much of the sky is over each place
+  REF(vec4) behind;     // what is opaque, premultiplied, level after level
+  mat4 clip_from_position;
+  uvec2 size;  // of the frame, px
+  uvec2 openness_size;
+  uvec2 behind_size;  // of the first level
+  uint behind_levels;
+  uint padding;
+  uint behind_begins[16];
+};
+REF_TYPE(SceneScreen, 8)
+
+// What all draws of a frame share, as push constants, which may be 128 bytes: none is left. For a draw
 // that is not of `order`, `draws`, `materials` and `layers` begin with its own: reading what has one
 // address for all fragments is far cheaper than reading where each of them says.
 struct SceneArgs {
@@ -178,6 +196,7 @@ struct SceneArgs {
   float log2_far_over_near;  // logarithmic depth only
   REF(uvec2) order;             // blended elements from far to near: draw, first index
   REF(SceneShadow) shadows;
+  REF(SceneScreen) screen;
 };
 REF_TYPE(SceneArgs, 8)
 

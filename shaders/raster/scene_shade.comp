@@ -28,7 +28,8 @@ vec4 shade_item(SceneArgs scene, uint item, uvec2 pixel) {
   SceneDraw draw = scene.draws.at[name.x];
   Corners corners;
   for (uint k = 0u; k < 3u; ++k) corners.clip[k] = args.clip_positions.at[3u * item + k];
-  const Fragment f = interpolate(corners, draw, name, pixel, vec2(args.width, args.height));
+  Fragment f = interpolate(corners, draw, name, pixel, vec2(args.width, args.height));
+  f.pixel = pixel;
   return shade_fragment(scene, draw.material, (draw.flags & draw_flag_unlit) != 0u, f);
 }
 

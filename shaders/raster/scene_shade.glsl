@@ -3,6 +3,7 @@
 #ifndef PARITY_RASTER_SCENE_SHADE_GLSL
 #define PARITY_RASTER_SCENE_SHADE_GLSL
 #include "raster/scene_layout.h"
+#include "shading/behind.glsl"
 #include "shading/environment.glsl"
 #include "shading/layers.glsl"
 #include "shading/light_shadow.glsl"
@@ -23,6 +24,7 @@ layout(constant_id = 13) const bool has_unlit = true;  // points and lines too
 layout(constant_id = 14) const bool one_material = false;  // `materials` begins with it
 layout(constant_id = 22) const bool has_layers = true;       // extensions of materials
 layout(constant_id = 23) const bool has_environment = true;  // a picture of it
+layout(constant_id = 26) const bool has_openness = true;     // of each place of the picture
 layout(constant_id = 4) const float largest_value = 3.4028234e38;  // of the target
 
 struct Fragment {
@@ -33,6 +35,7 @@ struct Fragment {
   vec4 uv[3];  // slots 0 and 1, 2 and 3, 4 and 5, and what they change in a pixel
   vec4 uv_dx[3];
   vec4 uv_dy[3];
+  uvec2 pixel;
   bool front;
 };
 
@@ -179,7 +182,8 @@ Layers layers_of(SceneArgs args, SceneLayers from, uint flags, inout Microsurfac
   y.sheen_roughness = clamp(from.sheen_roughness * texels.sheen.a, 0.2, 1.0);
   y.sheen_albedo = sheen_albedo_at(args.albedo_table, view_cosine(n, v), y.sheen_roughness);
   y.transmission = from.transmission * texels.transmission.x;
-  y.tint = m.diffuse * exp2(from.log2_attenuation * (from.thickness * texels.transmission.y));
+  y.depth = from.thickness * texels.transmission.y;
+  y.tint = m.diffuse * exp2(from.log2_attenuation * y.depth);
   y.index = from.index;
   y.thick = from.thickness > 0.0;
   y.see_through = (flags & material_flag_blend) != 0u;
@@ -196,29 +200,42 @@ vec3 mean_radiance(SceneArgs args, vec3 normal) {
 
 vec3 mirror_of(vec3 v, vec3 n) { return n * (2.0 * dot(n, v)) - v; }
 
-// What is behind a surface that light passes, of the surroundings alone.
-vec3 behind(SceneArgs args, Microsurface m, Layers y, vec3 n, vec3 v) {
-  const float rough = m.roughness * clamp(2.0 * y.index - 2.0, 0.0, 1.0);
-  if (!y.thick) return mirror_radiance(args, -v, rough);
+// The way of the eye's ray within a surface that light passes.
+vec3 way_behind(Layers y, vec3 n, vec3 v) {
+  if (!y.thick) return -v;
   const float ratio = 1.0 / y.index;
   const float cosine = dot(n, v);
   const float inside = sqrt(max(1.0 - ratio * ratio * (1.0 - cosine * cosine), 0.0));
-  return mirror_radiance(args, n * (ratio * cosine - inside) - v * ratio, rough);
+  return n * (ratio * cosine - inside) - v * ratio;
+}
+
+// What is behind a surface that light passes; `open` becomes the share that is left to blending.
+vec3 behind(SceneArgs args, Microsurface m, Layers y, vec3 n, vec3 v, vec3 p, vec3 passing,
+            inout float open) {
+  const float rough = m.roughness * clamp(2.0 * y.index - 2.0, 0.0, 1.0);
+  const vec3 way = way_behind(y, n, v);
+  const vec3 around = mirror_radiance(args, way, rough);
+  if (!has_behind) return (passing - open) * around;
+  const vec4 seen = picture_behind(args.screen, p + way * y.depth, rough);
+  const float empty = 1.0 - seen.a;
+  open = has_environment ? 0.0 : open * empty * (1.0 - picture_behind(args.screen, p, 0.0).a);
+  return passing * seen.rgb + (passing * empty - open) * around;
 }
 
 // Radiance from all around, without occlusion, and the share of what is behind that is to be seen.
-vec4 surrounded(SceneArgs args, Microsurface m, Layers y, vec3 n, vec3 v) {
+// Light that comes straight, not by mirroring, is let in by `openness`.
+vec4 surrounded(SceneArgs args, Microsurface m, Layers y, vec3 n, vec3 v, vec3 p, float openness) {
   vec3 lean = n;
   if (has_layers && y.stretched)
     lean = unit_or_zero(cross(cross(y.across, v), y.across) * (1.0 - y.bend) + n * y.bend);
   const EnvironmentShares s = environment_shares(m);
-  const vec3 mean = mean_radiance(args, n);
+  const vec3 mean = mean_radiance(args, n) * openness;
   vec3 body = m.diffuse * s.entering * mean;
   float open = 0.0;
   if (has_layers && y.transmission > 0.0) {
     const vec3 passing = y.tint * s.entering * y.transmission;
     if (y.see_through) open = clamp(min_component(passing), 0.0, 1.0 - 1.0 / 256.0);
-    body = body * (1.0 - y.transmission) + (passing - open) * behind(args, m, y, n, v);
+    body = body * (1.0 - y.transmission) + behind(args, m, y, n, v, p, passing, open);
   }
   vec3 sum = s.mirror * mirror_radiance(args, mirror_of(v, lean), m.roughness) + s.bounced * mean + body;
   if (has_layers && max_component(y.sheen) > 0.0) {
@@ -234,6 +251,14 @@ vec4 surrounded(SceneArgs args, Microsurface m, Layers y, vec3 n, vec3 v) {
     open *= 1.0 - y.coat_weight;
   }
   return vec4(sum, open);
+}
+
+// How much of the sky reaches a fragment, as the picture of that says. What is blended has none.
+float openness_at(SceneArgs args, uint flags, uvec2 pixel) {
+  if (!has_openness || (flags & material_flag_blend) != 0u) return 1.0;
+  const uvec2 have = args.screen.at[0].openness_size, size = args.screen.at[0].size;
+  const uvec2 at = min(pixel * have / size, have - 1u);
+  return args.screen.at[0].openness.at[at.y * have.x + at.x];
 }
 
 // Straight colour and alpha: 1 unless light passes through.
@@ -256,7 +281,8 @@ vec4 lit_radiance(SceneArgs args, SceneMaterial material, uint index, Fragment f
   }
   m.albedo = albedo_at(args.albedo_table, view_cosine(n, v), m.roughness);
   const float occlusion = 1.0 + material.occlusion_strength * (texels.occlusion - 1.0);
-  const vec4 around = surrounded(args, m, y, n, v);
+  const float openness = openness_at(args, material.flags, f.pixel);
+  const vec4 around = surrounded(args, m, y, n, v, f.position, openness);
   vec3 emission = material.emission * texels.emission;
   if (has_layers) emission *= 1.0 - y.coat_weight;
   vec3 sum = emission + around.rgb * occlusion;

@@ -90,7 +90,8 @@ vec4 shade_item(SceneArgs scene, uint item, vec2 place) {
   SceneDraw draw = scene.draws.at[name.x];
   Corners corners;
   for (uint k = 0u; k < 3u; ++k) corners.clip[k] = args.clip_positions.at[3u * item + k];
-  const Fragment f = interpolate_at(corners, draw, name, place, vec2(args.width, args.height));
+  Fragment f = interpolate_at(corners, draw, name, place, vec2(args.width, args.height));
+  f.pixel = uvec2(place);
   return shade_fragment(scene, draw.material, (draw.flags & draw_flag_unlit) != 0u, f);
 }
 

@@ -20,6 +20,7 @@ struct Layers {
   float transmission;  // 0: none
   vec3 tint;
   float index;
+  float depth;  // m
   bool thick;
   bool see_through;
 };

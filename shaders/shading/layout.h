@@ -156,6 +156,21 @@ struct ShadowArgs {
   float bias;
 };
 
+/// Ambient occlusion of a picture from its distances along the view.
+struct OcclusionArgs {
+  REF(float) distances;   ///< m, infinity: nothing is there
+  REF(vec4) directions;   ///< of the slices, px, x right, y down; weight; one over the length
+  REF(float) parts;       ///< of the way to the radius, one a step, ascending to 1
+  REF(float) openness;
+  vec2 slope;             ///< half of the view's width and height at distance 1 (orthographic: m)
+  uint width;
+  uint height;
+  uint orthographic;
+  float radius;           ///< m
+  uint slice_count;
+  uint steps;
+};
+
 /// How scene-referred colours become display-referred ones; numbers of parity::ToneMap.
 const uint tone_clamp = 0u;
 const uint tone_neutral = 1u;

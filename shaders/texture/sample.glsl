@@ -39,9 +39,16 @@ bool stores_srgb(SceneTexture t) {
          role == texture_sheen_color;
 }
 
+// The nearest level that is there: all that is read is.
+uint kept_level(SceneTexture t, uint level) {
+  return clamp(level, (t.flags >> texture_first_level_shift) & 15u,
+               15u - ((t.flags >> texture_last_level_shift) & 15u));
+}
+
 // One level, filtered within it.
-vec4 sample_level(SceneTexture t, uint level, bool linear, vec2 uv, ref_float linear_from_srgb) {
+vec4 sample_level(SceneTexture t, uint wanted, bool linear, vec2 uv, ref_float linear_from_srgb) {
   const bool srgb = stores_srgb(t);
+  const uint level = kept_level(t, wanted);
   const vec2 size = vec2(max(t.width >> level, 1u), max(t.height >> level, 1u));
   const uint wrap_u = (t.flags >> texture_wrap_u_shift) & 3u;
   const uint wrap_v = (t.flags >> texture_wrap_v_shift) & 3u;
@@ -98,8 +105,9 @@ vec4 sample_at_level(SceneTexture t, vec2 uv, float lambda, ref_float linear_fro
 }
 
 // One level, averaged over an ellipse.
-vec4 average_level(SceneTexture t, uint level, vec2 uv, Ellipse ellipse, ref_float linear_from_srgb) {
+vec4 average_level(SceneTexture t, uint wanted, vec2 uv, Ellipse ellipse, ref_float linear_from_srgb) {
   const bool srgb = stores_srgb(t);
+  const uint level = kept_level(t, wanted);
   const vec2 size = vec2(max(t.width >> level, 1u), max(t.height >> level, 1u));
   const uint wrap_u = (t.flags >> texture_wrap_u_shift) & 3u;
   const uint wrap_v = (t.flags >> texture_wrap_v_shift) & 3u;
