@@ -191,10 +191,14 @@ TEST(SimVerb, WrongUsageIsOneLineAndExitCode2) {
   std::string bad = small_dam;
   bad.replace(bad.find("wcsph"), 5, "magic");
   folder.write("bad.json", bad);
+  std::string thin = small_dam;
+  thin.replace(thin.find("\"max\": [0.3"), 11, "\"max\": [0.001");
+  folder.write("thin.json", thin);
   const std::string good = program + "small.json -o out --backend cpu ";
   for (const std::string& line :
-       {program + "none.json -o out", program + "bad.json -o out", program + "small.json",
-        good + "--resume", good + "--frames 3", good + "--formats gif", good + "--size 0x7"}) {
+       {program + "none.json -o out", program + "bad.json -o out", program + "thin.json -o out",
+        program + "small.json", good + "--resume", good + "--frames 3", good + "--formats gif",
+        good + "--size 0x7"}) {
     const auto [code, output] = shell(folder, line);
     EXPECT_EQ(code, 2) << line << ": " << output;
     EXPECT_EQ(std::count(output.begin(), output.end(), '\n'), 1) << output;

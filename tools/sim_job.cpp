@@ -44,13 +44,21 @@ json measures_json(const SimMeasures& m, std::uint64_t steps) {
           {"max_density_error", number(m.max_density_error)}};
 }
 
+Simulation start(const SimJob& job, const SimScene& scene, gpu::Context* context) {
+  try {
+    return start_simulation(scene, context);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(job.input, error.what());
+  }
+}
+
 class Runner {
  public:
   Runner(const SimJob& job, const SimScene& scene, gpu::Context* context)
       : job_(job),
         scene_(scene),
         physics_(physics_text(scene)),
-        simulation_(start_simulation(scene, context)),
+        simulation_(start(job, scene, context)),
         drawer_(context) {
     make_folder();
     if (job.resume) restore();

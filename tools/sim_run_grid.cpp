@@ -116,7 +116,7 @@ FluidProblem problem_of(const SimScene& scene) {
     problem.sources.push_back({s.center, s.radius, s.smoke, s.temperature, s.velocity});
   for (std::size_t i = 0; i < scene.liquid.size(); ++i) add_body(scene, i, problem);
   if (is_liquid(problem.parameters.method) && problem.initial.particles.positions.empty())
-    throw std::invalid_argument("liquid: solids take all of its room");
+    throw std::invalid_argument("liquid: holds no particle: too thin, or solids take its room");
   if (scene.start == SimStart::taylor_green)
     problem.initial.velocity =
         taylor_green_velocity(problem.domain, problem.parameters.viscosity, 0);

@@ -116,7 +116,7 @@ SphProblem problem_of(const SimScene& scene) {
     problem.boundary_motions.push_back(wall_motion(scene, wall));
   for (std::size_t i = 0; i < scene.liquid.size(); ++i) add_liquid(scene, i, problem);
   if (problem.initial.positions.empty())
-    throw std::invalid_argument("liquid: solids take all of its room");
+    throw std::invalid_argument("liquid: holds no particle: too thin, or solids take its room");
   check_sph_problem(problem);
   return problem;
 }

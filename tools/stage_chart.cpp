@@ -1,5 +1,7 @@
 #include "tools/stage_chart.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 
@@ -56,7 +58,7 @@ void add_points(const Stage& stage, const Axis& axis, double value,
   for (std::size_t i = 0; i < measurements.size(); ++i) {
     if (!measurements[i] || measurements[i]->seconds.empty()) continue;
     const double time_ms = 1000 * median(measurements[i]->seconds);
-    Point point{.x = value, .y = time_ms, .label = axis.name + "=" + short_number(value)};
+    Point point{.x = value, .y = time_ms, .label = fmt::format("{}={:.3g}", axis.name, value)};
     if (stage.error) {
       point.x = time_ms;
       point.y = measurements[i]->error.value_or(0);
