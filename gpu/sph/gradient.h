@@ -6,7 +6,10 @@
 
 namespace parity::gpu {
 
-/// Gradients of vectors that particles carry, by kernels corrected to be exact for linear fields.
+/// Gradients of vectors that particles carry, by kernels corrected to be exact for linear fields:
+/// for what is asked of a flow, such as vorticity and strain. No force uses them. Forces are sums
+/// over pairs, equal and opposite, so that momentum is kept; corrected kernels of two particles
+/// differ, and would not keep it.
 ///
 /// Source: Randles & Libersky 1996; Bonet & Lok 1999.
 class Gradients {
