@@ -184,7 +184,9 @@ std::vector<CellType> cell_types(const FluidProblem& problem, const FluidState& 
 /// Cells along the sides of the tiles of a sparse fluid, the first of which lies at the origin.
 constexpr ivec3 fluid_tile = {8, 4, 4};
 
-/// Cells that smoke may cross in a step of a sparse fluid, rounded up, and one for interpolation.
+/// Cells away that what is in a cell may be found after a step of a sparse fluid: what is carried
+/// `courant` cells is interpolated from places less than one further. A liquid needs one more, for the
+/// faces around its particles.
 int active_margin(const FluidParameters& parameters);
 
 /// The cells that the step from a state on computes: those of tiles with a busy cell in them or

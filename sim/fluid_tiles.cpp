@@ -55,7 +55,7 @@ void mark_tiles(Field& tiles, ivec3 cell, int margin) {
 }  // namespace
 
 int active_margin(const FluidParameters& parameters) {
-  return 1 + int(std::ceil(parameters.courant));
+  return int(std::ceil(parameters.courant)) + (is_liquid(parameters.method) ? 1 : 0);
 }
 
 std::vector<std::uint8_t> active_cells(const FluidProblem& problem, const FluidState& state) {

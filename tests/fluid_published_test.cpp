@@ -323,8 +323,8 @@ TEST(FluidSimulation, AResumedRunHasTheSameBits) {
 }
 
 TEST(FluidSimulation, MemoryIsAsStated) {
-  // Per cell of a box of smoke: 9 face values, 4 scalars, pressure and right side with a seventh
-  // for the coarse grids: 15.3 floats; spin and vorticity 8. What does not grow is below 100 kB.
+  // Per cell of a box of smoke: 9 face values, 6 scalars, pressure and right side with a seventh
+  // for the coarse grids: 17.3 floats; spin and vorticity 8. What does not grow is below 100 kB.
   FluidProblem problem = smoke_plume(24, 3);
   problem.solids.clear();
   gpu::FluidSimulation simulation(test_context(), problem);

@@ -40,7 +40,7 @@ struct FluidBuffers {
   void dispatch(Commands& commands, const Kernel<Args>& kernel, std::uint32_t axis,
                 const Args& args) const {
     if (tiles) {
-      tiles->dispatch(commands, kernel, axis < 3 ? tile_faces : tile_cells, args);
+      tiles->dispatch(commands, kernel, axis < 3 ? tile_faces + 3 * axis : tile_cells, args);
     } else {
       commands.dispatch(kernel, threads(int(axis)), args);
     }

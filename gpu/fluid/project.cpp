@@ -24,6 +24,7 @@ Projection::Projection(Context& context, FluidBuffers& buffers, const FluidProbl
       divergence_(context, shaders::fluid_divergence_comp, solids_of(buffers)),
       subtract_(context, shaders::fluid_subtract_gradient_comp, solids_of(buffers)),
       start_(context, shaders::fluid_start_solve_comp),
+      keep_tiles_(buffers.tiles && !is_liquid(problem.parameters.method)),
       iterations_(problem.parameters.max_iterations),
       remove_mean_(!has_open_side(problem.domain) && !problem.solids.empty() &&
                    !is_liquid(problem.parameters.method)) {
@@ -57,7 +58,7 @@ FluidProjectArgs Projection::args(const FluidFaces& velocity) const {
 void Projection::record_cells(Commands& commands) {
   system_.record_pack(commands, buffers_.types,
                       {buffers_.open[0].ref(), buffers_.open[1].ref(), buffers_.open[2].ref()},
-                      false);
+                      keep_tiles_);
 }
 
 void Projection::record(Commands& commands, const FluidFaces& velocity, float part) {

@@ -34,6 +34,7 @@ class Projection {
   std::unique_ptr<Multigrid> multigrid_;
   std::unique_ptr<ConjugateGradient> conjugate_gradient_;
   Kernel<FluidProjectArgs> divergence_, subtract_, start_;
+  bool keep_tiles_;  ///< solids are at rest and nothing else changes a tile
   std::uint32_t iterations_;
   bool remove_mean_;
 };

@@ -31,6 +31,10 @@ std::size_t split_cells(const FluidProblem& problem) {
   return is_split(problem.parameters.method) ? problem.domain.cell_count() : 0;
 }
 
+std::array<Buffer<float>, 2> make_pair_of(Context& context, std::size_t cells) {
+  return {Buffer<float>(context, cells), Buffer<float>(context, cells)};
+}
+
 std::size_t spin_cells(const FluidProblem& problem) {
   return problem.parameters.vorticity_confinement > 0 ? split_cells(problem) : 0;
 }
@@ -45,8 +49,8 @@ FluidSimulation::FluidSimulation(Context& context, const FluidProblem& problem)
       projection_(context, buffers_, problem),
       smoke_(context, split_cells(problem)),
       temperature_(context, split_cells(problem)),
-      scalar_(context, split_cells(problem)),
-      scalar_forth_(context, split_cells(problem)),
+      forth_(make_pair_of(context, split_cells(problem))),
+      carried_(make_pair_of(context, split_cells(problem))),
       partials_(context, 3 * speed_chunks),
       vorticity_(context, spin_cells(problem)),
       spin_(context, spin_cells(problem)),
@@ -55,6 +59,7 @@ FluidSimulation::FluidSimulation(Context& context, const FluidProblem& problem)
       rate_(context, shaders::fluid_rate_comp),
       advect_(context, shaders::fluid_advect_comp, {buffers_.tiled()}),
       diffuse_(context, shaders::fluid_diffuse_comp, {buffers_.tiled()}),
+      carry_smoke_(context, shaders::fluid_carry_smoke_comp, {buffers_.tiled()}),
       solid_faces_(context, shaders::fluid_solid_faces_comp, {buffers_.tiled()}),
       cell_types_(context, shaders::fluid_cell_types_comp, {buffers_.tiled()}),
       smoke_steps_(make_smoke_steps(context, problem.parameters.method, buffers_.tiled())) {
@@ -110,8 +115,8 @@ void FluidSimulation::write(const FluidState& state) {
   if (is_split(problem_.parameters.method)) {
     smoke_.write(floats_of(state.smoke));
     temperature_.write(floats_of(state.temperature));
-    scalar_.write(floats_of(state.smoke));
-    scalar_forth_.write(floats_of(state.smoke));
+    forth_[0].write(floats_of(state.smoke));
+    forth_[1].write(floats_of(state.temperature));
   }
   if (liquid_) liquid_->write(state.particles);
   if (buffers_.tiles) buffers_.tiles->activate_all(context_);
@@ -155,8 +160,9 @@ FluidState FluidSimulation::run_part(Part part, float seconds) {
   buffers_.clock.write(std::vector<FluidClock>{now});
   context_.run([&](Commands& commands) {
     if (part == Part::advection) {
-      record_scalar(commands, smoke_);
-      record_scalar(commands, temperature_);
+      record_carry_smoke(commands);
+      commands.copy(carried_[0], smoke_, 0, 0, smoke_.count());
+      commands.copy(carried_[1], temperature_, 0, 0, smoke_.count());
       record_advection(commands);
     } else if (part == Part::viscosity) {
       record_viscosity(commands);
@@ -216,7 +222,7 @@ void FluidSimulation::record_tiles(Commands& commands) {
   active_tiles_->record_clear_faces(commands);
   active_tiles_->record_clear(commands, {projection_.system().pressure().ref().address}, 0);
   if (liquid_) return;
-  for (const Buffer<float>* field : {&smoke_, &temperature_, &scalar_, &scalar_forth_})
+  for (const Buffer<float>* field : {&smoke_, &temperature_, &forth_[0], &forth_[1]})
     active_tiles_->record_clear(commands, *field, 1);
   if (problem_.parameters.vorticity_confinement > 0)
     for (const Buffer<vec4>* field : {&vorticity_, &spin_})
@@ -273,30 +279,33 @@ void FluidSimulation::record_runge_kutta(Commands& commands) {
   record_rate(commands, buffers_.third, buffers_.velocity, 1.0f / 3);
 }
 
-void FluidSimulation::record_scalar(Commands& commands, const Buffer<float>& field) {
-  FluidArgs now = args();
-  now.axis = 3;
-  now.field = field;
-  now.field_result = scalar_;
-  buffers_.dispatch(commands, advect_, 3, now);
-  BufferRef<float> advected = scalar_;
-  if (problem_.parameters.method == FluidMethod::maccormack) {
-    now.other = {scalar_, scalar_, scalar_};
-    now.field_result = advected = scalar_forth_;
-    now.mode = 1;
-    buffers_.dispatch(commands, advect_, 3, now);
-  }
-  // By a kernel, which does nothing once the end is reached.
-  now.field = advected;
-  now.field_result = field;
-  now.mode = 2;
-  buffers_.dispatch(commands, advect_, 3, now);
+void FluidSimulation::record_carry_smoke(Commands& commands) {
+  const bool is_corrected = problem_.parameters.method == FluidMethod::maccormack;
+  const std::array<Buffer<float>, 2>& first = is_corrected ? forth_ : carried_;
+  FluidCarryArgs now{.scene = buffers_.scene,
+                     .clock = buffers_.clock,
+                     .velocity = buffers_.velocity,
+                     .smoke = smoke_,
+                     .temperature = temperature_,
+                     .smoke_forth = first[0],
+                     .temperature_forth = first[1],
+                     .carried_smoke = carried_[0],
+                     .carried_temperature = carried_[1],
+                     .mode = 0,
+                     .padding = 0};
+  buffers_.dispatch(commands, carry_smoke_, 3, now);
+  if (!is_corrected) return;
+  now.mode = 1;
+  buffers_.dispatch(commands, carry_smoke_, 3, now);
 }
 
 void FluidSimulation::record_smoke(Commands& commands, std::uint32_t mode, std::uint32_t axis) {
   const FluidScalarArgs now{.scene = buffers_.scene,
                             .clock = buffers_.clock,
                             .velocity = buffers_.other,
+                            .pushed = buffers_.velocity,
+                            .carried_smoke = carried_[0],
+                            .carried_temperature = carried_[1],
                             .smoke = smoke_,
                             .temperature = temperature_,
                             .vorticity = vorticity_,
@@ -358,8 +367,7 @@ void FluidSimulation::record_viscosity(Commands& commands) {
 }
 
 void FluidSimulation::record_split(Commands& commands) {
-  record_scalar(commands, smoke_);
-  record_scalar(commands, temperature_);
+  record_carry_smoke(commands);
   record_advection(commands);
   // Before the forces: what they push against a wall is not yet flow that could rub on it.
   if (problem_.parameters.viscosity > 0) record_viscosity(commands);
@@ -370,8 +378,7 @@ void FluidSimulation::record_split(Commands& commands) {
   }
   for (std::uint32_t axis = 0; axis < axes(); ++axis)
     record_smoke(commands, std::uint32_t(Smoke::forces), axis);
-  projection_.record(commands, buffers_.other, 1);
-  record_copy(commands, buffers_.other, buffers_.velocity);
+  projection_.record(commands, buffers_.velocity, 1);
 }
 
 FluidState step(Context& context, const FluidProblem& problem, const FluidState& state,

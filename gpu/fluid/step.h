@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include "gpu/fluid/fluid_buffers.h"
@@ -59,7 +60,7 @@ class FluidSimulation {
   void record_rate(Commands& commands, const FluidFaces& from, const FluidFaces& to, float weight);
   void record_runge_kutta(Commands& commands);
   void record_split(Commands& commands);
-  void record_scalar(Commands& commands, const Buffer<float>& field);
+  void record_carry_smoke(Commands& commands);
   void record_advection(Commands& commands);
   void record_smoke(Commands& commands, std::uint32_t mode, std::uint32_t axis);
   void record_copy(Commands& commands, const FaceBuffers& from, const FaceBuffers& to);
@@ -73,9 +74,12 @@ class FluidSimulation {
   std::uint64_t memory_before_;
   FluidBuffers buffers_;
   Projection projection_;
-  Buffer<float> smoke_, temperature_, scalar_, scalar_forth_, partials_;
+  Buffer<float> smoke_, temperature_;
+  std::array<Buffer<float>, 2> forth_, carried_;  ///< of smoke and temperature
+  Buffer<float> partials_;
   Buffer<vec4> vorticity_, spin_;
   Kernel<FluidArgs> clock_, speed_, rate_, advect_, diffuse_;
+  Kernel<FluidCarryArgs> carry_smoke_;
   Kernel<FluidCellArgs> solid_faces_, cell_types_;
   std::vector<Kernel<FluidScalarArgs>> smoke_steps_;
   std::unique_ptr<Liquid> liquid_;

@@ -125,7 +125,7 @@ std::uint32_t PressureSystem::quad_count(std::size_t level) const {
 }
 
 void PressureSystem::record_pack(Commands& commands, BufferRef<std::uint32_t> types,
-                                 const std::array<BufferRef<float>, 3>& open, bool all_fluid) {
+                                 const std::array<BufferRef<float>, 3>& open, bool keep_tiles) {
   if (!shape_.with_words) return;
   const PackArgs args{.level = levels_[0],
                       .types = types,
@@ -133,7 +133,7 @@ void PressureSystem::record_pack(Commands& commands, BufferRef<std::uint32_t> ty
                       .open_y = open[1],
                       .open_z = open[2],
                       .tiles = tile_table(),
-                      .all_fluid = all_fluid ? 1u : 0u,
+                      .keep_tiles = keep_tiles ? 1u : 0u,
                       .padding = 0};
   if (tiles_ != nullptr) {
     tiles_->dispatch(commands, pack_, touched_cells, args);
@@ -145,8 +145,8 @@ void PressureSystem::record_pack(Commands& commands, BufferRef<std::uint32_t> ty
                       {.fine = levels_[l - 1],
                        .coarse = levels_[l],
                        .control = control_,
-                       .tiles = {},
-                       .mode = 0,
+                       .tiles = tile_table(),
+                       .mode = keep_tiles && l == 1 ? 1u : 0u,
                        .padding = 0});
 }
 

@@ -64,9 +64,11 @@ class PressureSystem {
     return tiles_ != nullptr ? tiles_->table() : BufferRef<TileTable>{};
   }
 
-  /// Words of all grids. Arrays are those of sim/pressure.h in float; types empty: all fluid.
+  /// Words of all grids. Arrays are those of sim/pressure.h in float.
+  ///
+  /// @param keep_tiles  tiles that are active, or not, as at the last call keep their words.
   void record_pack(Commands& commands, BufferRef<std::uint32_t> types,
-                   const std::array<BufferRef<float>, 3>& open, bool all_fluid);
+                   const std::array<BufferRef<float>, 3>& open, bool keep_tiles);
 
   /// One pass over a grid. `result` where the mode has one.
   void record_sweep(Commands& commands, const Kernel<SweepArgs>& kernel, const PressureLevel& level,

@@ -8,10 +8,10 @@ TileLists::TileLists(Context& context, uvec3 cells)
     : tiles_((cells + uvec3(tile_x, tile_yz, tile_yz) - 1u) / uvec3(tile_x, tile_yz, tile_yz)),
       is_flat_(cells.z == 1),
       flags_(context, tile_count()),
-      list_(context, 2 * tile_count()),
-      groups_(context, active_tiles + 1),
+      list_(context, 5 * tile_count()),
+      groups_(context, group_numbers),
       starts_(context, 257),
-      table_(context, std::vector<TileTable>{{flags_, list_, groups_, starts_, 0, 0}}),
+      table_(context, std::vector<TileTable>{{flags_, list_, groups_, starts_, 0, tile_count()}}),
       list_kernel_(context, shaders::numerics_tile_list_comp) {
   activate_all(context);
 }
@@ -23,7 +23,7 @@ void TileLists::activate_all(Context& context) {
 }
 
 void TileLists::visit_all() {
-  table_.write(std::vector<TileTable>{{flags_, list_, groups_, starts_, 1, 0}});
+  table_.write(std::vector<TileTable>{{flags_, list_, groups_, starts_, 1, tile_count()}});
 }
 
 void TileLists::record(Commands& commands, BufferRef<float> clock) {

@@ -7,8 +7,8 @@
 
 namespace parity::gpu {
 
-/// Which tiles of a box are worked on, as lists that kernels are dispatched over. Memory: 12 bytes a
-/// tile of 8 x 4 x 4 cells.
+/// Which tiles of a box are worked on, as lists that kernels are dispatched over. Memory: 24 bytes
+/// a tile of 8 x 4 x 4 cells.
 class TileLists {
  public:
   TileLists(Context& context, uvec3 cells);

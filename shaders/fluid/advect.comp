@@ -6,52 +6,38 @@
 #include "fluid/points.glsl"
 #include "fluid/trace.glsl"
 
-// Carries a field along: each point takes the value from where its fluid came. One thread a point.
+// Carries the velocity along: each face takes the value from where its fluid came. One thread a face.
 // Source: notes 10.4; Stam 1999; Selle, Fedkiw, Kim, Liu & Rossignac 2008 (MacCormack).
 layout(local_size_x = 64) in;
 layout(scalar, push_constant) uniform Push { FluidArgs args; };
 
 const uint semi_lagrangian = 0u;
-/// other, or field_result before, holds the field carried forth by semi_lagrangian: it is carried back
-/// and half of what is missing then is given to it, within the values around the place it came from.
+/// other holds the field carried forth by semi_lagrangian: it is carried back and half of what is missing
+/// then is given to it, within the values around the place it came from.
 const uint correct = 1u;
-const uint keep = 2u;  ///< faces: result = velocity; cells: field_result = field
+const uint keep = 2u;  ///< result = velocity
 
 void main() {
-  const float step = args.clock.at[0].step;
-  if (step == 0.0) return;
   FluidScene scene = args.scene.at[0];
+  const float step = args.clock.at[0].step;
   ivec3 at;
-  if (!point_of_thread(scene, args.axis, at)) return;
+  if (!point_of_thread(scene, args.axis, at) || step == 0.0) return;
   const uint index = point_index(points_of(scene.cells, args.axis), at);
-  if (args.mode == keep) {
-    if (args.axis < 3u) {
-      write_face(args.result, args.axis, index, read_face(args.velocity, args.axis, index));
-    } else {
-      args.field_result.at[index] = args.field.at[index];
-    }
-    return;
-  }
-  if (args.axis < 3u && in_closed_wall(scene, args.axis, at)) {
-    write_face(args.result, args.axis, index, 0.0);
+  const float here = read_face(args.velocity, args.axis, index);
+  if (args.mode == keep || in_closed_wall(scene, args.axis, at)) {
+    write_face(args.result, args.axis, index, args.mode == keep ? here : 0.0);
     return;
   }
   const vec3 place = place_of(args.axis, at);
   const float cells_per_speed = step / scene.spacing;
   const vec3 source = trace_back(scene, args.velocity, place, cells_per_speed);
-  // `velocity` carries; faces carry themselves, so that it is also what is carried.
   const Sampled there = sample_field(scene, args.velocity, args.field, args.axis, source);
   float value = there.value;
   if (args.mode == correct) {
     const vec3 target = trace_back(scene, args.velocity, place, -cells_per_speed);
-    const float back = sample_field(scene, args.other, args.other.x, args.axis, target).value;
-    const float original = read_field(args.velocity, args.field, args.axis, index);
-    precise float better = value + 0.5 * (original - back);
+    const float back = sample_field(scene, args.other, args.field, args.axis, target).value;
+    precise float better = value + 0.5 * (here - back);
     value = clamp(better, there.low, there.high);
   }
-  if (args.axis < 3u) {
-    write_face(args.result, args.axis, index, value);
-  } else {
-    args.field_result.at[index] = value;
-  }
+  write_face(args.result, args.axis, index, value);
 }

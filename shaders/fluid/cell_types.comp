@@ -13,7 +13,11 @@ void main() {
   FluidScene scene = args.scene.at[0];
   const uvec3 cells = scene.cells;
   ivec3 cell;
-  if (!listed_point_of_thread(scene, 3u, cell)) return;
+  if (!touched_cell_of_thread(scene, cell)) return;
+  // Solids of sparse smoke are at rest: only tiles that come or go change.
+  if (with_tiles != 0u && args.is_liquid == 0u &&
+      is_as_before(scene.tiles.at[0], cells, uvec3(cell) / tile_side))
+    return;
   const uint index = point_index(ivec3(cells), cell);
   float room = 0.0;
   for (uint axis = 0u; axis < 3u; ++axis) {

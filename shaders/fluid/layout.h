@@ -17,7 +17,7 @@ const uint wall_open = 2u;
 const uint wall_periodic = 3u;
 const uint fluid_upwind = 0u;
 const uint fluid_central = 1u;
-/// Parts of an axis' listed tiles that the largest speed is found in.
+/// Parts of an axis' listed faces that the largest speed is found in.
 const uint tile_speeds = 256u;
 
 struct FluidSolidRecord {
@@ -129,11 +129,29 @@ struct FluidCellArgs {
   uint is_liquid;
 };
 
+/// Smoke and temperature as the flow carries them.
+struct FluidCarryArgs {
+  REF(FluidScene) scene;
+  REF(FluidClock) clock;
+  FluidFaces velocity;
+  REF(float) smoke;
+  REF(float) temperature;
+  REF(float) smoke_forth;  ///< carried forth by the semi-Lagrangian method
+  REF(float) temperature_forth;
+  REF(float) carried_smoke;  ///< and corrected
+  REF(float) carried_temperature;
+  uint mode;
+  uint padding;
+};
+
 /// Smoke and temperature, and the forces of both.
 struct FluidScalarArgs {
   REF(FluidScene) scene;
   REF(FluidClock) clock;
   FluidFaces velocity;
+  FluidFaces pushed;  ///< the velocity with what forces add
+  REF(float) carried_smoke;
+  REF(float) carried_temperature;
   REF(float) smoke;
   REF(float) temperature;
   REF(vec4) vorticity;  ///< of cells, and its magnitude

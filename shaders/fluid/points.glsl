@@ -1,39 +1,62 @@
 // Which point of a field a thread is for. Needs fluid/grid.glsl and numerics/tiles.glsl.
 
-uvec3 tile_size(uvec3 cells) { return uvec3(tile_x, tile_yz, min(cells.z, tile_yz)); }
-
-/// Point `slot` of the k-th listed tile: its cells, or the faces across `axis` below its cells and,
-/// where no listed tile follows, those above the last. False: there is none.
-bool listed_point_of_slot(FluidScene scene, uint axis, uint k, uint slot, out ivec3 at) {
-  TileTable table = scene.tiles.at[0];
-  const uvec3 side = tile_size(scene.cells), tile = tile_at(table.list.at[k]);
-  const uvec3 corner = tile_side * tile;
-  const uint volume = side.x * side.y * side.z;
-  uvec3 point;
-  if (slot < volume) {
-    point = corner + uvec3(slot % side.x, slot / side.x % side.y, slot / (side.x * side.y));
-    at = ivec3(point);
-    return all(lessThan(point, scene.cells));
-  }
-  if (axis > 2u) return false;
-  const uint a = (axis + 1u) % 3u, b = (axis + 2u) % 3u, s = slot - volume;
-  point[axis] = min(corner[axis] + side[axis], scene.cells[axis]);
-  point[a] = corner[a] + s % side[a];
-  point[b] = corner[b] + s / side[a];
-  at = ivec3(point);
-  if (s >= side[a] * side[b] || point[a] >= scene.cells[a] || point[b] >= scene.cells[b]) return false;
-  return !is_listed(table, scene.cells, tile + uvec3(unit(axis)));
+/// Cell `slot` of a tile, or the face below it. False: there is none.
+bool point_in_tile(uvec3 cells, uvec3 tile, uint slot, out ivec3 at) {
+  at = ivec3(cell_in_tile(tile, slot));
+  return all(lessThan(at, ivec3(cells)));
 }
 
-/// Without tiles: points in the order of the field. With: 64 points of a tile a workgroup, active or
-/// not.
+/// Face `slot` of those above the last cells of a tile. False: there is none.
+bool point_on_top(uvec3 cells, uint axis, uvec3 tile, uint slot, out ivec3 at) {
+  const uint wide = axis == 0u ? 2u : 3u;  // x and y, or y and z, where x is the axis
+  const uint first = slot & ((1u << wide) - 1u), second = slot >> wide;
+  uvec3 step = axis == 0u ? uvec3(tile_x, first, second) : uvec3(first, second, second);
+  if (axis > 0u) step[axis] = tile_yz;
+  uvec3 point = tile_side * tile + step;
+  point[axis] = min(point[axis], cells[axis]);
+  at = ivec3(point);
+  return second < tile_yz && all(lessThan(at, points_of(cells, axis)));
+}
+
+/// Slots of the listed tiles' cells, or of their faces of an axis: those below their cells, then those
+/// on top of the tiles that no listed one follows.
+uint slots_of_list(FluidScene scene, uint axis) {
+  TileTable table = scene.tiles.at[0];
+  const uint below = table.groups.at[0] << tile_bits(scene.cells);
+  return axis > 2u ? below : below + tile_top * table.groups.at[last_tiles + axis];
+}
+
+/// The point of a slot. False: there is none.
+bool point_of_slot(FluidScene scene, uint axis, uint slot, out ivec3 at) {
+  TileTable table = scene.tiles.at[0];
+  const uint bits = tile_bits(scene.cells), below = table.groups.at[0] << bits;
+  const uint slots = slots_of_list(scene, axis);
+  if (slot < below) {
+    const uint tile = table.list.at[slot >> bits];
+    return point_in_tile(scene.cells, tile_at(tile), slot & ((1u << bits) - 1u), at);
+  }
+  at = ivec3(0);
+  if (slot >= slots) return false;
+  const uint on_top = slot - below;
+  const uint tile = table.list.at[(2u + axis) * table.room + on_top / tile_top];
+  return point_on_top(scene.cells, axis, tile_at(tile), on_top % tile_top, at);
+}
+
+/// Without tiles: points in the order of the field. With: those of the listed tiles, active or not.
 bool listed_point_of_thread(FluidScene scene, uint axis, out ivec3 at) {
-  if (with_tiles != 0u)
-    return listed_point_of_slot(scene, axis, gl_WorkGroupID.x,
-                                gl_WorkGroupID.y * 64u + gl_LocalInvocationID.x, at);
+  if (with_tiles != 0u) return point_of_slot(scene, axis, thread_of_tiles(), at);
   const ivec3 size = points_of(scene.cells, axis);
   at = point_of(size, gl_GlobalInvocationID.x);
   return gl_GlobalInvocationID.x < point_count(size);
+}
+
+/// Cells of the listed tiles and of those that were left, which stand in the list behind them.
+bool touched_cell_of_thread(FluidScene scene, out ivec3 at) {
+  if (with_tiles == 0u) return listed_point_of_thread(scene, 3u, at);
+  TileTable table = scene.tiles.at[0];
+  const uint bits = tile_bits(scene.cells), slot = thread_of_tiles();
+  return slot >> bits < table.groups.at[1] &&
+         point_in_tile(scene.cells, tile_at(table.list.at[slot >> bits]), slot & ((1u << bits) - 1u), at);
 }
 
 bool in_active_tile(FluidScene scene, ivec3 cell) {

@@ -11,15 +11,15 @@ layout(local_size_x = 64) in;
 layout(scalar, push_constant) uniform Push { FluidScalarArgs args; };
 
 layout(constant_id = 1) const uint mode = 0u;
-const uint sources = 0u;    ///< cells: held in sources, heat cools
+const uint sources = 0u;    ///< cells: what was carried there, held in sources, heat cools
 const uint vorticity = 1u;  ///< cells: curl of the velocity
 const uint spin = 2u;       ///< cells: confinement
 const uint forces = 3u;     ///< faces: everything that pushes
 
 void hold_sources(FluidScene scene, float step, ivec3 cell, uint index) {
   const vec3 position = scene.origin + scene.spacing * (vec3(cell) + 0.5);
-  float smoke = args.smoke.at[index];
-  precise float heat = args.temperature.at[index] / (1.0 + scene.cooling * step);
+  float smoke = args.carried_smoke.at[index];
+  precise float heat = args.carried_temperature.at[index] / (1.0 + scene.cooling * step);
   for (uint k = 0u; k < scene.source_count; ++k) {
     const FluidSourceRecord source = scene.sources.at[k];
     if (distance(position, source.center) > source.radius) continue;
@@ -83,7 +83,10 @@ float push(FluidScene scene, ivec3 face) {
 }
 
 void push_face(FluidScene scene, float step, ivec3 face, uint index) {
-  if (in_closed_wall(scene, args.axis, face)) return;
+  if (in_closed_wall(scene, args.axis, face)) {
+    write_face(args.pushed, args.axis, index, 0.0);
+    return;
+  }
   precise float u = read_face(args.velocity, args.axis, index) + step * push(scene, face);
   const vec3 half_cell = 0.5 * vec3(1.0 - vec3(unit(args.axis)));
   const vec3 position = scene.origin + scene.spacing * (vec3(face) + half_cell);
@@ -92,16 +95,15 @@ void push_face(FluidScene scene, float step, ivec3 face, uint index) {
     if (source.velocity != vec3(0.0) && distance(position, source.center) <= source.radius)
       u = source.velocity[args.axis];
   }
-  write_face(args.velocity, args.axis, index, u);
+  write_face(args.pushed, args.axis, index, u);
 }
 
 void main() {
-  const float step = args.clock.at[0].step;
-  if (step == 0.0) return;
   FluidScene scene = args.scene.at[0];
+  const float step = args.clock.at[0].step;
   const uint axis = mode == forces ? args.axis : 3u;
   ivec3 at;
-  if (!point_of_thread(scene, axis, at)) return;
+  if (!point_of_thread(scene, axis, at) || step == 0.0) return;
   const uint index = point_index(points_of(scene.cells, axis), at);
   if (mode == sources) {
     hold_sources(scene, step, at, index);

@@ -14,15 +14,14 @@ void main() {
   float largest = 0.0;
   if (with_tiles != 0u) {
     FluidScene scene = args.scene.at[0];
-    const uint id = gl_GlobalInvocationID.x, count = scene.tiles.at[0].groups.at[0];
-    const uint slots = scene.cells.z == 1u ? 64u : 160u;
-    for (uint k = id * count / tile_speeds; k < (id + 1u) * count / tile_speeds; ++k)
-      for (uint slot = 0u; slot < slots; ++slot) {
-        ivec3 at;
-        if (!listed_point_of_slot(scene, args.axis, k, slot, at)) continue;
-        const uint index = point_index(points_of(scene.cells, args.axis), at);
-        largest = max(largest, abs(read_face(args.velocity, args.axis, index)));
-      }
+    const uint id = gl_GlobalInvocationID.x;
+    const uint part = (slots_of_list(scene, args.axis) + tile_speeds - 1u) / tile_speeds;
+    for (uint slot = id * part; slot < (id + 1u) * part; ++slot) {
+      ivec3 at;
+      if (!point_of_slot(scene, args.axis, slot, at)) continue;
+      const uint index = point_index(points_of(scene.cells, args.axis), at);
+      largest = max(largest, abs(read_face(args.velocity, args.axis, index)));
+    }
     if (id < tile_speeds) args.field.at[args.mode + id] = largest;
     return;
   }

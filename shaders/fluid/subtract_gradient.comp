@@ -31,12 +31,11 @@ bool is_fluid(FluidScene scene, ivec3 cell, uint axis) {
 }
 
 void main() {
-  const float step = args.part * args.clock.at[0].step;
-  if (step == 0.0) return;
   FluidScene scene = args.scene.at[0];
+  const float step = args.part * args.clock.at[0].step;
   const uint axis = args.mode >> 1u;
   ivec3 face;
-  if (!point_of_thread(scene, axis, face)) return;
+  if (!point_of_thread(scene, axis, face) || step == 0.0) return;
   const uint index = point_index(points_of(scene.cells, axis), face);
   if (in_closed_wall(scene, axis, face)) {
     write_face(args.velocity, axis, index, 0.0);

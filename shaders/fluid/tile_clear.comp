@@ -17,11 +17,17 @@ void main() {
   if (args.clock.at[0].step == 0.0) return;
   FluidScene scene = args.scene.at[0];
   // The tiles that were left stand in the list behind the others.
-  const uint k = scene.tiles.at[0].groups.at[0] + gl_WorkGroupID.x;
-  const uint slot = gl_WorkGroupID.y * 64u + gl_LocalInvocationID.x;
+  TileTable table = scene.tiles.at[0];
+  const uint volume = 1u << tile_bits(scene.cells);
+  const uint slots = volume + (args.axis < 3u ? tile_top : 0u);
+  const uint k = table.groups.at[0] + thread_of_tiles() / slots, slot = thread_of_tiles() % slots;
+  if (k >= table.groups.at[1]) return;
+  const uvec3 tile = tile_at(table.list.at[k]);
   ivec3 at;
-  if (!listed_point_of_slot(scene, args.axis, k, slot, at) || is_active_point(scene, args.axis, at))
+  if (slot < volume ? !point_in_tile(scene.cells, tile, slot, at)
+                    : !point_on_top(scene.cells, args.axis, tile, slot - volume, at))
     return;
+  if (is_active_point(scene, args.axis, at)) return;
   const uint index = point_index(points_of(scene.cells, args.axis), at);
   if (args.axis < 3u) {
     write_face(args.velocity, args.axis, index, 0.0);

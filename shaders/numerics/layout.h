@@ -69,22 +69,29 @@ REF_TYPE(SolverControl, 4)
 /// Cells of a tile along x, and along y and z.
 const uint tile_x = 8u;
 const uint tile_yz = 4u;
+/// Threads for the faces on top of a tile.
+const uint tile_top = 32u;
 /// Flags of a tile: it is active; it was until now.
 const uint tile_active = 1u;
 const uint tile_left = 2u;
 
 /// Where TileTable::groups has the workgroups of 64 threads that cover the listed tiles, three numbers
-/// each: 4 threads a tile, 16, all its cells, all its faces of an axis; the cells of these and of the
-/// tiles that were left; cells and faces of the latter alone.
+/// each, in rows of group_row: 4 threads a tile, 16, all its cells; its faces of an axis, three numbers
+/// for each axis; the cells of these and of the tiles that were left; cells and faces of the latter
+/// alone.
 const uint tile_rows = 2u;
 const uint tile_quads = 5u;
 const uint tile_cells = 8u;
 const uint tile_faces = 11u;
-const uint touched_cells = 14u;
-const uint left_cells = 17u;
-const uint left_faces = 20u;
-/// There the count of active tiles, listed or not.
-const uint active_tiles = 23u;
+const uint touched_cells = 20u;
+const uint left_cells = 23u;
+const uint left_faces = 26u;
+/// There the count of active tiles, listed or not, and those of the listed tiles that no listed one
+/// follows along each axis: the faces above them are covered too.
+const uint active_tiles = 29u;
+const uint last_tiles = 30u;
+const uint group_numbers = 33u;
+const uint group_row = 32768u;
 
 /// The tiles of a box that are worked on.
 struct TileTable {
@@ -95,7 +102,7 @@ struct TileTable {
   /// by these parts do not depend on which tiles are active but hold only zeros.
   REF(uint) starts;
   uint visit_all;  ///< 1: the list has all tiles of the box, active or not
-  uint padding;
+  uint room;  ///< tiles of the box; from [(2 + axis) room] on, the list has those that none follows
 };
 REF_TYPE(TileTable, 8)
 
@@ -170,7 +177,7 @@ struct PackArgs {
   REF(float) open_y;
   REF(float) open_z;
   REF(TileTable) tiles;
-  uint all_fluid;  ///< types are not read
+  uint keep_tiles;  ///< tiles that are active as before keep their words
   uint padding;
 };
 

@@ -28,17 +28,18 @@ void main() {
       return;
     }
   } else {
-    const uint at = gl_WorkGroupID.y * 64u + gl_LocalInvocationID.x;
-    cell = tile_side * tile_at(args.tiles.at[0].list.at[gl_WorkGroupID.x]) +
-           uvec3(at % 8u, at / 8u % 4u, at / 32u);
-    if (at >= 128u || any(greaterThanEqual(cell, n))) return;
+    const uint bits = tile_bits(n), k = thread_of_tiles() >> bits;
+    if (k >= args.tiles.at[0].groups.at[1]) return;
+    cell = cell_in_tile(tile_at(args.tiles.at[0].list.at[k]), thread_of_tiles() & ((1u << bits) - 1u));
+    if (any(greaterThanEqual(cell, n))) return;
+    if (args.keep_tiles != 0u && is_as_before(args.tiles.at[0], n, cell / tile_side)) return;
     slot = slot_of_cell(args.level, cell);
     if (!is_active(args.tiles.at[0], n, cell / tile_side)) {
       ref_uint(args.level.words).at[slot] = pressure_air;
       return;
     }
   }
-  const uint type = args.all_fluid != 0u ? 0u : args.types.at[(cell.z * n.y + cell.y) * n.x + cell.x];
+  const uint type = args.types.at[(cell.z * n.y + cell.y) * n.x + cell.x];
   uint word = type == 0u ? pressure_fluid : (type == 1u ? pressure_air : 0u);
   for (uint axis = 0u; axis < 3u; ++axis) {
     const uvec3 step = uvec3(axis == 0u, axis == 1u, axis == 2u);
