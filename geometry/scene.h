@@ -45,7 +45,8 @@ struct Node {
   int light = -1;
 };
 
-enum class Wrap { repeat, mirrored_repeat, clamp_to_edge, clamp_to_border };  ///< border: 0
+/// The border is 0; mirror_clamp_to_edge mirrors once.
+enum class Wrap { repeat, mirrored_repeat, clamp_to_edge, clamp_to_border, mirror_clamp_to_edge };
 enum class Filter { nearest, linear };
 
 /// What the program gives to textures: files do not say how anisotropic a sampler is.

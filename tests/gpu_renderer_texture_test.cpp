@@ -59,7 +59,8 @@ TEST_F(GpuRenderer, LinearFilteringIsARampBetweenTexelCentres) {
 }
 
 TEST_F(GpuRenderer, TextureCoordinatesBelowZeroAndAboveOneWrap) {
-  for (const Wrap wrap : {Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge}) {
+  for (const Wrap wrap :
+       {Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge, Wrap::mirror_clamp_to_edge}) {
     TestScene stage;
     Grid<u8vec4> image(2, 1, u8vec4(0, 0, 0, 255));
     image(1, 0) = u8vec4(255);
@@ -72,7 +73,8 @@ TEST_F(GpuRenderer, TextureCoordinatesBelowZeroAndAboveOneWrap) {
     stage.add(primitive);
     stage.options.width = stage.options.height = 36;  // six pixels to a period, three to a texel
     const Picture picture = stage.render();
-    const std::array<const char*, 3> want{"010101010101", "100110011001", "000000011111"};
+    const std::array<const char*, 5> want{"010101010101", "100110011001", "000000011111", "",
+                                          "111110011111"};
     for (int texel = 0; texel < 12; ++texel)
       EXPECT_EQ(picture.color(3 * texel + 1, 16).x, float(want[std::size_t(wrap)][texel] - '0'))
           << "wrap " << int(wrap) << " texel " << texel;

@@ -97,6 +97,21 @@ TEST_F(GpuRenderer, RoughGlassShowsTheMeanOfWhatIsBehind) {
   EXPECT_NEAR(got.x / got.y, mean.x / mean.y, 0.01);
 }
 
+TEST_F(GpuRenderer, GlassIsAsThickAsItsObjectIsLarge) {
+  const auto shown = [](float thickness, double scale) {
+    Window window(thickness, 1.5f);
+    window.stage.scene.materials[2].transmission.attenuation_color = vec3(0.2f, 0.5f, 0.9f);
+    window.stage.scene.materials[2].transmission.attenuation_distance = 1;
+    window.stage.scene.nodes.back().parent_from_node = dmat4(
+        dvec4(scale, 0, 0, 0), dvec4(0, scale, 0, 0), dvec4(0, 0, scale, 0), dvec4(0, 0, 0, 1));
+    return middle(
+        gpu::render(test_context(), window.stage.scene, window.frame(), {.full_float = true}));
+  };
+  const vec4 twice = shown(0.5f, 2), thick = shown(1, 1), thin = shown(0.5f, 1);
+  expect_near(twice, thick, shading_tolerance);
+  EXPECT_LT(thick.x, 0.7f * thin.x);
+}
+
 TEST(PictureLevels, KeepTheMeanOfAnySize) {
   for (const ivec2 size : {ivec2(7, 5), ivec2(16, 4), ivec2(1, 9), ivec2(131, 33)}) {
     Grid<vec4> picture{size.x, size.y};

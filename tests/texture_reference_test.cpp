@@ -66,6 +66,11 @@ TEST(CpuTexture, WrapsByItsMode) {
   const MippedTexture clamp{levels, false, sampler(Wrap::clamp_to_edge, Filter::nearest)};
   EXPECT_NEAR(code(clamp, -7, 0.1), 0, rounding);
   EXPECT_NEAR(code(clamp, 7, 0.1), 30, rounding);
+  const MippedTexture once{levels, false, sampler(Wrap::mirror_clamp_to_edge, Filter::nearest)};
+  EXPECT_NEAR(code(once, -0.1, 0.1), 0, rounding);
+  EXPECT_NEAR(code(once, -0.6, 0.1), 20, rounding);
+  EXPECT_NEAR(code(once, -7, 0.1), 30, rounding) << "the mirrored far edge";
+  EXPECT_NEAR(code(once, 7, 0.1), 30, rounding);
 }
 
 TEST(CpuTexture, LinearMixesFourTexelsByTheirDistance) {

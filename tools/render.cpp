@@ -23,6 +23,7 @@
 #include "geometry/image_io.h"
 #include "geometry/opaque_frame.h"
 #include "geometry/scene_io.h"
+#include "geometry/texture_levels.h"
 #include "gpu/core/context.h"
 #include "gpu/raster/encode_srgb.h"
 #include "gpu/raster/renderer.h"
@@ -175,7 +176,7 @@ Job render_on_gpu(Task& task) {
   const double start = seconds_now();
   if (task.environment)
     task.frame.environment = gpu::prefilter(context, task.environment->light, environment_samples);
-  gpu::Renderer renderer(context, task.scene);
+  gpu::Renderer renderer(context, task.scene, {}, read_levels(task.scene, task.frame));
   const auto depths_of = [&](const Frame& frame) { return renderer.render(frame).depth; };
   if (task.casts_shadows())
     task.frame.shadows = cast_shadows(task.scene, task.frame, {}, depths_of);

@@ -1,5 +1,6 @@
 #include "cpu_reference/raster/surface.h"
 
+#include <cmath>
 #include <set>
 
 #include "cpu_reference/shading/shadow_map.h"
@@ -123,6 +124,7 @@ ElementSurface element_surface(const PlacedDraw& placed, std::uint32_t element,
   s.textures_more = &textures.of(draw.material, MipRounding::more);
   s.topology = p.topology;
   const dmat3 linear{draw.world_from_object};
+  s.scale = std::cbrt(std::abs(glm::determinant(linear)));
   for (std::size_t i = 0; i < 3; ++i) {
     const std::uint32_t v = vertices[i];
     s.position[i] = dvec3(draw.world_from_object * dvec4(dvec3(p.positions[v]), 1.0));
@@ -215,6 +217,7 @@ ShadingPoint<double> shading_point(const ElementSurface& s, int x, int y, bool b
   ShadingPoint<double> point;
   point.inputs = white;
   point.back = back;
+  point.scale = s.scale;
   const QuadBarycentrics b = quad_barycentrics(s.planes, x, y);
   set_triple(point.inputs, shading_input::position, interpolate(s.position, b.here));
   set_triple(point.inputs, shading_input::normal, interpolate(s.normal, b.here));

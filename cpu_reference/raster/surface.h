@@ -61,6 +61,7 @@ struct ElementSurface {
   std::array<dvec4, 3> color{};
   std::array<std::array<dvec2, 3>, slot_count> uv{};  ///< transformed, by slot
   std::array<double, 3> handedness{1.0, 1.0, 1.0};
+  double scale = 1;  ///< of the object: cube root of the volume of its unit cube
 };
 ElementSurface element_surface(const PlacedDraw& draw, std::uint32_t element,
                                const SceneTextures& textures, const Frame& frame);

@@ -323,6 +323,7 @@ dvec4 arithmetic(const ShadingPoint<double>& point,
   for (std::size_t i = 0; i < shading_input::count; ++i) exact.inputs[i] = point.inputs[i];
   exact.back = point.back;
   exact.openness = point.openness;
+  exact.scale = point.scale;
   const Shaded<Interval> range = shade(material, scene, exact);
   return {deviation(range.rgb[0], value.x), deviation(range.rgb[1], value.y),
           deviation(range.rgb[2], value.z), deviation(range.alpha, value.w)};

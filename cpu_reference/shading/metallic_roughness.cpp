@@ -145,7 +145,8 @@ void add_transmission(const Material& m, const ShadingPoint<Real>& p, Surface<Re
   s.index = Real(m.ior > 0 ? double(m.ior) : 1.0);
   s.transmission = Real(double(m.transmission.factor)) * p.inputs[input::transmission_texture];
   s.tint = s.diffuse;
-  s.depth = Real(double(m.transmission.thickness)) * p.inputs[input::thickness_texture];
+  s.depth = Real(double(m.transmission.thickness)) * rounded<Real>(p.scale) *
+            p.inputs[input::thickness_texture];
   if (!s.thick || std::isinf(m.transmission.attenuation_distance)) return;
   const auto left = [&](float color) {
     const double exponent =

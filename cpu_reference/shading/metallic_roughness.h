@@ -50,6 +50,8 @@ struct ShadingPoint {
 
   double openness = 1;  ///< share of the light from all around that arrives, but for mirrors
 
+  double scale = 1;  ///< of the object, for what is as thick as it is large
+
   ShadingPoint() { visible.fill(Real(1.0)); }
 };
 
@@ -80,8 +82,9 @@ struct Shaded {
 
 /// Radiance that leaves a point of a surface toward the eye: punctual lights, environment,
 /// emission, with all layers of the material. Unlit materials: the base colour. Transmission is
-/// approximated: what all channels pass alike is blended with what is behind, unrefracted; the rest
-/// shows the environment.
+/// approximated: Frame::behind is read where the refracted ray leaves, once; without it what all
+/// channels pass alike is blended with what is behind, unrefracted, and the rest shows the
+/// environment.
 ///
 /// Real is double (the answer) or Interval (all that single precision may make of it).
 ///

@@ -104,6 +104,8 @@ std::optional<int> wrap_texel(std::int64_t i, int size, Wrap wrap) {
       return i < 0 ? 0 : size - 1;
     case Wrap::clamp_to_border:
       return std::nullopt;
+    case Wrap::mirror_clamp_to_edge:
+      return int(std::min<std::int64_t>(i < 0 ? -(i + 1) : i, size - 1));
   }
   return 0;
 }

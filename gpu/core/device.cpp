@@ -311,6 +311,7 @@ Device::Device(VkPhysicalDevice physical, const DeviceInfo& info) {
   }
   query(physical, features);
   bresenham_lines = lines.bresenhamLines == VK_TRUE;
+  mirror_clamp = features.v12.samplerMirrorClampToEdge == VK_TRUE;
   features.core.features.robustBufferAccess = VK_FALSE;
   features.v13.robustImageAccess = VK_FALSE;
   features.v12.bufferDeviceAddressCaptureReplay = VK_FALSE;

@@ -117,6 +117,8 @@ VkSamplerAddressMode address_mode(SamplerOptions::Wrap wrap) {
       return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     case SamplerOptions::Wrap::clamp_to_border:
       return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER;
+    case SamplerOptions::Wrap::mirror_clamp_to_edge:
+      return VK_SAMPLER_ADDRESS_MODE_MIRROR_CLAMP_TO_EDGE;
   }
   throw std::invalid_argument("ImageSampler: unknown wrap mode");
 }
@@ -205,6 +207,10 @@ const ImageOptions& Image::options() const { return state_->options; }
 ImageSampler::ImageSampler(Context& context, const SamplerOptions& options)
     : state_(std::make_unique<State>()) {
   const ContextState& shared = context.state();
+  constexpr auto once = SamplerOptions::Wrap::mirror_clamp_to_edge;
+  if ((options.wrap_u == once || options.wrap_v == once) && !shared.device->mirror_clamp)
+    throw Error(ErrorKind::missing_feature,
+                "device " + shared.info.name + " lacks samplerMirrorClampToEdge");
   const float most = shared.properties.limits.maxSamplerAnisotropy;
   VkSamplerCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;

@@ -49,7 +49,8 @@ struct SamplerOptions {
     repeat,
     mirrored_repeat,
     clamp_to_edge,
-    clamp_to_border
+    clamp_to_border,
+    mirror_clamp_to_edge
   } wrap_u = Wrap::repeat,
     wrap_v = Wrap::repeat;
   float lod_bias = 0;
@@ -61,6 +62,7 @@ struct SamplerOptions {
 /// How a fixed-function sampler reads. Move-only.
 class ImageSampler {
  public:
+  /// @throws Error  missing_feature: the device cannot mirror once.
   ImageSampler(Context& context, const SamplerOptions& options);
   ~ImageSampler();
   ImageSampler(ImageSampler&&) noexcept;

@@ -75,6 +75,7 @@ class Device {
   Device& operator=(const Device&) = delete;
   DeviceLink link;
   bool bresenham_lines = false;  ///< VK_EXT_line_rasterization
+  bool mirror_clamp = false;     ///< samplerMirrorClampToEdge
 };
 
 // ---- submission.cpp ----

@@ -49,7 +49,8 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 Picture Renderer::render(const Frame& frame) {
   State& s = *state_;
-  const SceneFrame data(s.context, s.buffers, s.blended, frame);
+  const FramePictures pictures(s.context, frame);
+  const SceneFrame data(s.context, s.buffers, s.blended, frame, pictures);
   const std::vector<int>& counts = s.context.info().sample_counts;
   const bool offered =
       std::find(counts.begin(), counts.end(), frame.options.samples) != counts.end();

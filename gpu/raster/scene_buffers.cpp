@@ -39,6 +39,8 @@ std::uint32_t wrap_code(Wrap wrap) {
 std::uint32_t sampler_flags(const Sampler& sampler) {
   std::uint32_t flags = wrap_code(sampler.wrap_u) << texture_wrap_u_shift |
                         wrap_code(sampler.wrap_v) << texture_wrap_v_shift;
+  if (sampler.wrap_u == Wrap::mirror_clamp_to_edge) flags |= texture_mirror_once_u;
+  if (sampler.wrap_v == Wrap::mirror_clamp_to_edge) flags |= texture_mirror_once_v;
   if (sampler.mag == Filter::linear) flags |= texture_linear_mag;
   if (sampler.min == Filter::linear) flags |= texture_linear_min;
   if (sampler.mip == Filter::nearest) flags |= texture_mip_nearest;

@@ -47,6 +47,7 @@ void place(SceneDraw& draw, const Draw& from, const dvec3& origin) {
   draw.world_from_object = mat3(dmat3(from.world_from_object));
   draw.world_origin = vec3(dvec3(from.world_from_object[3]) - origin);
   draw.world_from_object_normal = direction_matrix(from.world_from_object_normal);
+  draw.scale = float(std::cbrt(std::abs(glm::determinant(dmat3(from.world_from_object)))));
   if (from.mirrored) draw.flags |= draw_flag_mirrored;
 }
 
@@ -56,13 +57,6 @@ std::vector<SceneLight> place_lights(const Frame& frame) {
   for (std::size_t i = 0; i < frame.shadows.size(); ++i)
     lights[std::size_t(frame.shadows[i].light)].shadow = std::uint32_t(i) + 1;
   return lights;
-}
-
-Buffer<float> all_depths(Context& context, const LightShadow& shadow) {
-  std::vector<float> depths;
-  for (const ShadowCascade& cascade : shadow.cascades)
-    depths.insert(depths.end(), cascade.depths.begin(), cascade.depths.end());
-  return Buffer<float>(context, depths);
 }
 
 /// Positions stand relative to `origin`.
@@ -87,34 +81,6 @@ SceneShadow describe(const LightShadow& shadow, const dvec3& origin, BufferRef<f
   result.radius = std::uint32_t(shadow.radius);
   result.bias = shadow.bias;
   return result;
-}
-
-SceneEnvironment describe(const EnvironmentLight& light, BufferRef<vec4> mirrors) {
-  SceneEnvironment result{};
-  result.mirrors = mirrors;
-  result.level_count = std::uint32_t(light.mirrors.size());
-  std::uint32_t begin = 0;
-  for (std::size_t i = 0; i < light.mirrors.size(); ++i) {
-    result.begins[i] = begin;
-    result.sides[i] = std::uint32_t(light.mirrors[i].width() - 2);
-    begin += std::uint32_t(light.mirrors[i].size());
-  }
-  std::copy(light.irradiance.begin(), light.irradiance.end(), result.irradiance);
-  return result;
-}
-
-std::vector<vec4> all_texels(const EnvironmentLight& light) {
-  std::vector<vec4> texels;
-  for (const Grid<vec4>& level : light.mirrors)
-    texels.insert(texels.end(), level.begin(), level.end());
-  return texels;
-}
-
-std::vector<vec4> all_texels(const BehindPicture& behind) {
-  std::vector<vec4> texels;
-  for (const Grid<vec4>& level : behind.levels)
-    texels.insert(texels.end(), level.begin(), level.end());
-  return texels;
 }
 
 /// Positions stand relative to the eye.
@@ -195,7 +161,7 @@ std::vector<uvec2> BlendedPrimitives::order(Context& context, const Frame& frame
 }
 
 SceneFrame::SceneFrame(Context& context, const SceneBuffers& scene, BlendedPrimitives& blended,
-                       const Frame& frame)
+                       const Frame& frame, const FramePictures& pictures)
     : order_(blended.order(context, frame)) {
   std::uint32_t first_element = 0;
   for (const Draw& draw : frame.draws) {
@@ -209,25 +175,21 @@ SceneFrame::SceneFrame(Context& context, const SceneBuffers& scene, BlendedPrimi
   draw_buffer_ = Buffer<SceneDraw>(context, draws_);
   light_buffer_ = Buffer<SceneLight>(context, place_lights(frame));
   order_buffer_ = Buffer<uvec2>(context, order_);
-  if (frame.environment) {
-    mirrors_ = Buffer<vec4>(context, all_texels(*frame.environment));
-    environment_ = Buffer<SceneEnvironment>(
-        context, std::vector<SceneEnvironment>{describe(*frame.environment, mirrors_)});
-  }
   std::vector<SceneShadow> shadows;
-  for (const LightShadow& shadow : frame.shadows) {
-    shadow_depths_.push_back(all_depths(context, shadow));
-    shadows.push_back(describe(shadow, frame.eye, shadow_depths_.back()));
-  }
+  for (std::size_t i = 0; i < frame.shadows.size(); ++i)
+    shadows.push_back(describe(frame.shadows[i], frame.eye, pictures.shadow_depths(i)));
   if (!shadows.empty()) shadow_buffer_ = Buffer<SceneShadow>(context, shadows);
-  add_screen(context, frame);
+  if (!frame.openness.empty() || frame.behind)
+    screen_ = Buffer<SceneScreen>(context, std::vector<SceneScreen>{describe_screen(
+                                               frame, pictures.openness(), pictures.behind())});
+  has_shadows_ = !shadows.empty();
   args_ = {.draws = draw_buffer_,
            .materials = scene.materials(),
            .textures = scene.textures(),
            .lights = light_buffer_,
            .linear_from_srgb = scene.linear_from_srgb(),
            .layers = scene.layers(),
-           .environment = environment_,
+           .environment = pictures.environment(),
            .albedo_table = scene.albedo_table(),
            .ambient = frame.ambient,
            .light_count = std::uint32_t(frame.lights.size()),
@@ -241,14 +203,6 @@ SceneFrame::SceneFrame(Context& context, const SceneBuffers& scene, BlendedPrimi
   has_placed_lights_ = std::ranges::any_of(frame.lights, [](const PlacedLight& placed) {
     return placed.light.kind != LightKind::directional;
   });
-}
-
-void SceneFrame::add_screen(Context& context, const Frame& frame) {
-  if (frame.openness.empty() && !frame.behind) return;
-  if (!frame.openness.empty()) openness_ = Buffer<float>(context, frame.openness.values());
-  if (frame.behind) behind_ = Buffer<vec4>(context, all_texels(*frame.behind));
-  screen_ = Buffer<SceneScreen>(
-      context, std::vector<SceneScreen>{describe_screen(frame, openness_, behind_)});
 }
 
 SceneArgs SceneFrame::args_of(std::size_t draw) const {

@@ -319,10 +319,12 @@ Picture Antialiaser::accumulate(const Frame& frame, std::span<const dvec2> shift
   State& s = *state_;
   s.begin(frame);
   double seconds = 0;
+  const FramePictures pictures(s.context, frame);
   std::optional<SceneFrame> data;
+  Frame moved = frame;
   for (const dvec2& shift : shifts) {
-    const Frame moved = shifted(frame, shift);
-    data.emplace(s.context, s.buffers, s.blended, moved);
+    shift_into(moved, frame, shift);
+    data.emplace(s.context, s.buffers, s.blended, moved, pictures);
     s.pipelines.prepare(moved, *data);
     seconds +=
         s.context
@@ -341,7 +343,8 @@ Picture Antialiaser::adaptive(const Frame& frame, float contrast, float gain) {
                                 " samples, must be 1");
   State& s = *state_;
   s.begin(frame);
-  const SceneFrame data(s.context, s.buffers, s.blended, frame);
+  const FramePictures pictures(s.context, frame);
+  const SceneFrame data(s.context, s.buffers, s.blended, frame, pictures);
   s.pipelines.prepare(frame, data);
   s.keep(s.context.run([&](Commands& commands) {
     s.pipelines.record(commands, frame, data);
@@ -352,7 +355,7 @@ Picture Antialiaser::adaptive(const Frame& frame, float contrast, float gain) {
   s.refined = double(count) / double(t.pixel_count);
   if (count > 0) {
     const Frame moved = moved_to_places(frame);
-    const SceneFrame moved_data(s.context, s.buffers, s.blended, moved);
+    const SceneFrame moved_data(s.context, s.buffers, s.blended, moved, pictures);
     s.make_lists(moved, moved_data);
     s.refine(frame, count, !data.order().empty());
   }

@@ -39,8 +39,13 @@ std::vector<std::uint32_t> pack(std::span<const Grid<u8vec4>> levels) {
 std::uint32_t flags_of(const MippedTexture& texture) {
   const Sampler& s = texture.sampler;
   std::uint32_t flags = texture.srgb ? texture_base_color : texture_normal;
-  flags |= std::uint32_t(s.wrap_u) << texture_wrap_u_shift;
-  flags |= std::uint32_t(s.wrap_v) << texture_wrap_v_shift;
+  const auto wrap = [](parity::Wrap mode) {
+    return std::uint32_t(mode == parity::Wrap::mirror_clamp_to_edge ? parity::Wrap::clamp_to_edge
+                                                                    : mode);
+  };
+  flags |= wrap(s.wrap_u) << texture_wrap_u_shift | wrap(s.wrap_v) << texture_wrap_v_shift;
+  if (s.wrap_u == parity::Wrap::mirror_clamp_to_edge) flags |= texture_mirror_once_u;
+  if (s.wrap_v == parity::Wrap::mirror_clamp_to_edge) flags |= texture_mirror_once_v;
   if (s.mag == Filter::linear) flags |= texture_linear_mag;
   if (s.min == Filter::linear) flags |= texture_linear_min;
   if (s.mip == Filter::nearest) flags |= texture_mip_nearest;
@@ -94,6 +99,8 @@ SamplerOptions sampler_options(const Sampler& s) {
         return Wrap::mirrored_repeat;
       case parity::Wrap::clamp_to_edge:
         return Wrap::clamp_to_edge;
+      case parity::Wrap::mirror_clamp_to_edge:
+        return Wrap::mirror_clamp_to_edge;
       default:
         return Wrap::clamp_to_border;
     }

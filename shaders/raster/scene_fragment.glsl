@@ -21,6 +21,7 @@ Fragment plain_fragment(uint draw_flags) {
   f.color = vec4(1.0);
   for (uint i = 0u; i < 3u; ++i) f.uv[i] = f.uv_dx[i] = f.uv_dy[i] = vec4(0.0);
   f.pixel = uvec2(gl_FragCoord.xy);
+  f.scale = 1.0;
   f.front = gl_FrontFacing != ((draw_flags & draw_flag_mirrored) != 0u);
   return f;
 }

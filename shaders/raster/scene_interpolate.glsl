@@ -48,6 +48,7 @@ Fragment weighted(Corners c, SceneDraw draw, uvec2 item, vec2 point, vec3 here, 
   f.tangent = vec4(0.0);
   f.color = vec4(0.0);
   f.pixel = uvec2(0u);
+  f.scale = draw.scale;
   for (uint j = 0u; j < 3u; ++j) f.uv[j] = f.uv_dx[j] = f.uv_dy[j] = vec4(0.0);
   [[dont_unroll]] for (uint k = 0u; k < 3u; ++k) {
     const uint v = corner_vertex(draw, item, k);

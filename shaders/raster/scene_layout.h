@@ -14,6 +14,7 @@ struct SceneDraw {
   mat3 world_from_object;
   vec3 world_origin;  // of the object, relative to the origin
   mat3 world_from_object_normal;  // up to a positive factor
+  float scale;  // cube root of the volume of an object's unit cube
   REF(vec3) positions;
   REF(vec3) normals;
   REF(vec4) tangents;
@@ -95,6 +96,8 @@ const uint texture_mip_linear = 32768u;
 const uint texture_anisotropy_shift = 16u;  // 5 bits: 0 or 1: none
 const uint texture_first_level_shift = 21u;  // 4 bits: finer ones are not there
 const uint texture_last_level_shift = 25u;   // 4 bits: 15 less the last one that is there
+const uint texture_mirror_once_u = 1u << 29;  // then wrapped as is said
+const uint texture_mirror_once_v = 1u << 30;
 
 struct SceneLight {
   vec3 position;   // relative to the origin, m

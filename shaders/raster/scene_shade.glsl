@@ -36,6 +36,7 @@ struct Fragment {
   vec4 uv_dx[3];
   vec4 uv_dy[3];
   uvec2 pixel;
+  float scale;  // of the object
   bool front;
 };
 
@@ -152,7 +153,7 @@ Microsurface base_surface(SceneMaterial material, Texels texels, vec3 base, vec3
 }
 
 Layers layers_of(SceneArgs args, SceneLayers from, uint flags, inout Microsurface m,
-                 TangentFrame frame, vec3 n, vec3 v, Texels texels) {
+                 TangentFrame frame, vec3 n, vec3 v, Texels texels, float scale) {
   Layers y;
   if (from.iridescence > 0.0) {
     const float thickness =
@@ -182,7 +183,7 @@ Layers layers_of(SceneArgs args, SceneLayers from, uint flags, inout Microsurfac
   y.sheen_roughness = clamp(from.sheen_roughness * texels.sheen.a, 0.2, 1.0);
   y.sheen_albedo = sheen_albedo_at(args.albedo_table, view_cosine(n, v), y.sheen_roughness);
   y.transmission = from.transmission * texels.transmission.x;
-  y.depth = from.thickness * texels.transmission.y;
+  y.depth = from.thickness * scale * texels.transmission.y;
   y.tint = m.diffuse * exp2(from.log2_attenuation * y.depth);
   y.index = from.index;
   y.thick = from.thickness > 0.0;
@@ -275,7 +276,7 @@ vec4 lit_radiance(SceneArgs args, SceneMaterial material, uint index, Fragment f
     const float weight = layers.specular * texels.specular.a;
     m = base_surface(material, texels, base,
                      min(layers.specular_color * texels.specular.rgb, vec3(1.0)) * weight, weight);
-    y = layers_of(args, layers, material.flags, m, frame, n, v, texels);
+    y = layers_of(args, layers, material.flags, m, frame, n, v, texels, f.scale);
   } else {
     m = base_surface(material, texels, base, vec3(0.04), 1.0);
   }

@@ -5,12 +5,13 @@
 
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec4 color;
-layout(location = 4) flat in uvec2 ids;
+layout(location = 4) flat in uvec3 ids;
 layout(location = 5) in vec4 uv[3];
 
 // Colour (straight) and alpha of this fragment, unless it is cut out.
 vec4 shade() {
   Fragment f = plain_fragment(ids.x);
+  f.scale = uintBitsToFloat(ids.z);
   if (has_normal_maps) f.tangent = tangent;
   // White that is interpolated may round to less.
   if (has_colors && (ids.x & draw_flag_colors) != 0u) f.color = color;

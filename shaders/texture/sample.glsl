@@ -14,6 +14,13 @@ float border_weight(float i, float size, uint mode) {
   return mode == 3u && (i < 0.0 || i >= size) ? 0.0 : 1.0;
 }
 
+const uint mirror_once = 4u;  // with 2, clamp
+
+// How an axis is wrapped: 0 repeat, 1 mirrored, 2 clamp, 3 border of 0, 6 mirrored once.
+uint wrap_mode(SceneTexture t, uint shift, uint once) {
+  return ((t.flags >> shift) & 3u) | ((t.flags & once) != 0u ? mirror_once : 0u);
+}
+
 // Where texel `i` (an integer as float) lies in an axis of `size` texels.
 uint wrap_texel(float i, float size, uint mode) {
   const float period = mode == 1u ? 2.0 * size : size;
@@ -21,7 +28,7 @@ uint wrap_texel(float i, float size, uint mode) {
   // The quotient may have rounded across an integer.
   r += r < 0.0 ? period : (r >= period ? -period : 0.0);
   if (mode == 1u && r >= size) r = period - 1.0 - r;
-  if (mode >= 2u) r = i;
+  if (mode >= 2u) r = mode >= mirror_once && i < 0.0 ? -1.0 - i : i;
   // Last, so that no coordinate, however large or undefined, leaves the texture.
   return min(uint(clamp(r, 0.0, size - 1.0)), uint(size) - 1u);
 }
@@ -50,8 +57,8 @@ vec4 sample_level(SceneTexture t, uint wanted, bool linear, vec2 uv, ref_float l
   const bool srgb = stores_srgb(t);
   const uint level = kept_level(t, wanted);
   const vec2 size = vec2(max(t.width >> level, 1u), max(t.height >> level, 1u));
-  const uint wrap_u = (t.flags >> texture_wrap_u_shift) & 3u;
-  const uint wrap_v = (t.flags >> texture_wrap_v_shift) & 3u;
+  const uint wrap_u = wrap_mode(t, texture_wrap_u_shift, texture_mirror_once_u);
+  const uint wrap_v = wrap_mode(t, texture_wrap_v_shift, texture_mirror_once_v);
   const uint first = t.texels.at[level];
   precise const vec2 p = linear ? uv * size - 0.5 : uv * size;
   const vec2 low = floor(p);
@@ -109,8 +116,8 @@ vec4 average_level(SceneTexture t, uint wanted, vec2 uv, Ellipse ellipse, ref_fl
   const bool srgb = stores_srgb(t);
   const uint level = kept_level(t, wanted);
   const vec2 size = vec2(max(t.width >> level, 1u), max(t.height >> level, 1u));
-  const uint wrap_u = (t.flags >> texture_wrap_u_shift) & 3u;
-  const uint wrap_v = (t.flags >> texture_wrap_v_shift) & 3u;
+  const uint wrap_u = wrap_mode(t, texture_wrap_u_shift, texture_mirror_once_u);
+  const uint wrap_v = wrap_mode(t, texture_wrap_v_shift, texture_mirror_once_v);
   const uint first = t.texels.at[level];
   const EllipseRows rows = ellipse_rows(ellipse);
   precise const vec2 middle = uv * size - 0.5;

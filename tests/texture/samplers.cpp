@@ -41,7 +41,7 @@ Lookups make_lookups(const Setting& setting, const Sampler& sampler, bool srgb) 
   p.levels = cpu::mip_pyramid(texture_test::random_image(side, (side + 1) / 2, random), srgb);
   p.sampler = sampler;
   p.sampler.wrap_u = Wrap(setting.count("wrap"));
-  p.sampler.wrap_v = Wrap((setting.count("wrap") + 1) % 4);
+  p.sampler.wrap_v = Wrap((setting.count("wrap") + 1) % 5);
   p.footprints = texture_test::random_footprints(side, (side + 1) / 2, 4000, random);
   p.precision.coordinate = 0x1p-22;
   return p;
@@ -88,7 +88,7 @@ std::vector<Axis> with_sampler_axes(std::vector<Axis> axes) {
                   .standard = 131,
                   .logarithmic = true,
                   .whole = true});
-  axes.push_back({.name = "wrap", .low = 0, .high = 3, .standard = 0, .whole = true, .each = true});
+  axes.push_back({.name = "wrap", .low = 0, .high = 4, .standard = 0, .whole = true, .each = true});
   return axes;
 }
 
@@ -155,8 +155,14 @@ const Registration fixed_function = register_stage<Lookups, std::vector<dvec4>>(
     .gpu = {{.name = "hardware",
              .solve =
                  [](gpu::Context& context, const Lookups& p) {
-                   return widened(
-                       gpu::hardware_sample(context, p.texture(), p.footprints, p.format));
+                   try {
+                     return widened(
+                         gpu::hardware_sample(context, p.texture(), p.footprints, p.format));
+                   } catch (const gpu::Error& error) {
+                     if (error.kind() == gpu::ErrorKind::missing_feature)
+                       throw Unsupported(error.what());
+                     throw;
+                   }
                  }}},
     .distance =
         [](const Lookups& p, const std::vector<dvec4>& got, const std::vector<dvec4>&) {
