@@ -67,6 +67,31 @@ std::string side_fault(const SimScene& scene) {
   return {};
 }
 
+std::string sparse_fault(const SimScene& scene) {
+  if (!scene.solver.sparse) return {};
+  const bool is_grid = scene.method == SimMethod::grid;
+  if (is_sph(scene.method))
+    return std::string("solver.sparse: method ") + name_of(scene.method) +
+           " has no cells; use grid, flip or apic";
+  if (is_grid && scene.solver.advection <= SimAdvection::central)
+    return "solver.sparse: needs advection semi_lagrangian or maccormack";
+  for (int s = 0; s < 2 * scene.dimensions; ++s)
+    if (scene.sides[s].kind == SimSideKind::periodic)
+      return std::string("solver.sparse: domain.sides.") + side_names[s] + " is periodic";
+  for (std::size_t i = 0; is_grid && i < scene.solids.size(); ++i)
+    if (scene.solids[i].velocity != dvec3(0))
+      return "solver.sparse: " + place("solids", i) + " moves, which method grid cannot";
+  if (scene.solver.courant.value_or(1) > 3)
+    return "solver.courant is " + std::to_string(*scene.solver.courant) +
+           ", must be at most 3 where sparse";
+  const ivec3 tiles = (cells_of(scene) + ivec3(7, 3, 3)) / ivec3(8, 4, 4);
+  const long long count = 1LL * tiles.x * tiles.y * tiles.z;
+  if (count > 65535)
+    return "solver.sparse: gives " + std::to_string(count) +
+           " tiles of 8 x 4 x 4 cells, at most 65535 are allowed";
+  return {};
+}
+
 std::string shape_fault(const SimScene& scene) {
   for (std::size_t i = 0; i < scene.liquid.size(); ++i)
     if (!is_inside(scene, scene.liquid[i].shape))
@@ -145,6 +170,7 @@ std::string scene_fault(const SimScene& scene) {
            " frames, at most 100000 are allowed";
   if (const std::string fault = side_fault(scene); !fault.empty()) return fault;
   if (const std::string fault = shape_fault(scene); !fault.empty()) return fault;
+  if (const std::string fault = sparse_fault(scene); !fault.empty()) return fault;
   const bool is_grid = scene.method == SimMethod::grid;
   if (is_grid && !scene.liquid.empty())
     return "liquid: method grid fills the domain; use flip, apic, wcsph or dfsph for liquids";

@@ -94,6 +94,7 @@ struct SimSolver {
   double artificial_viscosity = 0.1;  ///< wcsph, dfsph
   bool implicit_viscosity = false;    ///< wcsph, dfsph
   double flip_ratio = 0.97;           ///< flip: 0 is PIC, 1 is FLIP
+  bool sparse = false;                ///< grids: only tiles near what moves or is there
 
   bool operator==(const SimSolver&) const = default;
 };

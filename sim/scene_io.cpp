@@ -243,7 +243,8 @@ void read_solver(const Node& root, SimSolver& solver) {
   if (!root.has("solver")) return;
   const Node node = root.at("solver");
   node.expect_keys({"advection", "divergence", "density_error", "courant", "max_step",
-                    "sound_speed", "artificial_viscosity", "implicit_viscosity", "flip_ratio"});
+                    "sound_speed", "artificial_viscosity", "implicit_viscosity", "flip_ratio",
+                    "sparse"});
   if (node.has("advection"))
     solver.advection =
         node.at("advection")
@@ -257,6 +258,7 @@ void read_solver(const Node& root, SimSolver& solver) {
   if (node.has("implicit_viscosity"))
     solver.implicit_viscosity = node.at("implicit_viscosity").boolean();
   node.read("flip_ratio", solver.flip_ratio, {0, 1});
+  if (node.has("sparse")) solver.sparse = node.at("sparse").boolean();
 }
 
 void read_picture(const Node& root, int dimensions, SimPicture& picture) {
@@ -390,7 +392,7 @@ std::string physics_text(const SimScene& scene) {
               {"solver",
                {int(s.advection), s.divergence, s.density_error, optional_json(s.courant),
                 optional_json(s.max_step), optional_json(s.sound_speed), s.artificial_viscosity,
-                s.implicit_viscosity, s.flip_ratio}},
+                s.implicit_viscosity, s.flip_ratio, s.sparse}},
               {"start", int(scene.start)},
               {"liquid", bodies_json(scene.liquid)},
               {"solids", bodies_json(scene.solids)},

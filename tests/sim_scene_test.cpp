@@ -94,6 +94,8 @@ TEST(SimScene, RefusesEachFaultInOneLineWithItsPlace) {
       {"/fluid/viscosity", -1, "fluid.viscosity is -1, must be from 0.0"},
       {"/fluid/density", json(), "fluid.density is null, must be a number"},
       {"/solver/courant", 1e6, "solver.courant is 1000000.0, must be from"},
+      {"/solver/sparse", 1, "solver.sparse is 1, must be true or false"},
+      {"/solver/sparse", true, "solver.sparse: method wcsph has no cells"},
       {"/gravity", json{0, -9.81}, "gravity is an array of 2, must be an array of 3 numbers"},
       {"/liquid", json::array(), "liquid: is missing"},
       {"/liquid/0/box/max", json{0.5, 1.2, 0.5}, "liquid[0]: sticks out of the domain"},
@@ -125,6 +127,28 @@ TEST(SimScene, RefusesEachFaultInOneLineWithItsPlace) {
     EXPECT_TRUE(message.starts_with("scene.json: ")) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   }
+}
+
+TEST(SimScene, SparseScenesAreWhatTheDeviceCanDo) {
+  const auto refused = [](const char* pointer, const json& value) {
+    json scene = smoke();
+    scene["domain"].erase("sides");
+    scene["solver"] = {{"sparse", true}};
+    EXPECT_EQ(refusal(scene.dump()), "");
+    scene[json::json_pointer(pointer)] = value;
+    return refusal(scene.dump());
+  };
+  const auto says = [](const std::string& message, const char* part) {
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  };
+  says(refused("/solver/advection", "central"), "solver.sparse: needs advection");
+  says(refused("/solver/courant", 4), "solver.courant is 4.0");
+  says(refused("/domain/sides", json{{"left", "periodic"}, {"right", "periodic"}}),
+       "solver.sparse: domain.sides.left is periodic");
+  says(refused("/solids", json::parse(R"([{"sphere": {"center": [0.5, 1], "radius": 0.1},
+                                "velocity": [1, 0]}])")),
+       "solver.sparse: solids[0] moves");
+  says(refused("/spacing", 0.0009), "tiles of 8 x 4 x 4 cells, at most 65535");
 }
 
 TEST(SimScene, RefusesTextThatIsNoScene) {

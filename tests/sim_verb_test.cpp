@@ -103,11 +103,13 @@ TEST(SimVerb, ResumedParticlesGoOnToTheSameBits) {
 }
 
 TEST(SimVerb, ResumedGridsGoOnToTheSameBits) {
-  for (const char* text : {small_smoke, small_splash}) {
-    const SimScene scene = decode_sim_scene(text, "small.json");
-    expect_resumes("gpu", scene);
-    expect_resumes("cpu", scene);
-  }
+  for (const char* text : {small_smoke, small_splash})
+    for (const bool sparse : {false, true}) {
+      SimScene scene = decode_sim_scene(text, "small.json");
+      scene.solver.sparse = sparse;
+      expect_resumes("gpu", scene);
+      expect_resumes("cpu", scene);
+    }
 }
 
 TEST(SimVerb, SmokeComesOutOfItsSourceAndLiquidKeepsItsMass) {

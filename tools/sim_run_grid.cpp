@@ -64,6 +64,7 @@ FluidParameters parameters_of(const SimScene& scene) {
   p.courant = scene.solver.courant.value_or(p.courant);
   p.max_step = scene.solver.max_step.value_or(p.max_step);
   p.divergence = scene.solver.divergence;
+  p.sparse = scene.solver.sparse;
   return p;
 }
 
