@@ -46,7 +46,9 @@ struct GhiaCase {
   std::vector<std::pair<int, double>> grids;
 };
 
-/// Of v at Re 400; the test below says why.
+/// Of v at Re 400: -0.23827 stands in the published table and in each of the public copies of it
+/// that were compared, so it is no slip of a copy. The rows around it contradict it (the test
+/// below), and so does the flow, by more than a tenth of the lid's speed where all other rows fit.
 constexpr double misprint = 0.9063;
 
 class Ghia : public testing::TestWithParam<GhiaCase> {};
@@ -65,7 +67,10 @@ TEST_P(Ghia, CavityCentrelinesWithinOnePercentOfTheLid) {
   for (const auto& row : u_rows)
     EXPECT_NEAR(centre_u(state, row[0]), row[c.column], 0.01) << "u at y = " << row[0];
   for (const auto& row : v_rows) {
-    if (c.reynolds == 400 && row[0] == misprint) continue;
+    if (c.reynolds == 400 && row[0] == misprint) {
+      EXPECT_LT(centre_v(state, row[0]), row[c.column] - 0.1);
+      continue;
+    }
     EXPECT_NEAR(centre_v(state, row[0]), row[c.column], 0.01) << "v at x = " << row[0];
   }
 }
