@@ -124,6 +124,7 @@ LevelRange levels_of(const Footprint& f, const Sampler& sampler, const dvec2& si
   const bool follows = sampler.max_anisotropy >= 2 && sampler.mag == Filter::linear &&
                        sampler.min == Filter::linear && sampler.mip == Filter::linear;
   double low = std::log2(shortest), high = std::log2(longest);
+  if (follows && longest < 0.98) return {0, 0};  // magnified
   if (follows) {
     const double most = std::min(sampler.max_anisotropy, 16);
     low = std::log2(std::max(f.narrowest * small, shortest / most)) + 0.5;

@@ -28,6 +28,8 @@ TEST(ReadLevels, AreThoseOfTheFootprint) {
   const LevelRange magnified = levels_of(texture_test::textured_square(8, 0, Sampler{}));
   EXPECT_EQ(magnified.least, 0);
   EXPECT_EQ(magnified.greatest, 0);
+  const Sampler following{.max_anisotropy = 8};
+  EXPECT_EQ(levels_of(texture_test::textured_square(8, 0, following)).greatest, 0);
   // Ten times as far it is a tenth as large: 6.28 levels up.
   const LevelRange far = levels_of(texture_test::textured_square(256, -45, Sampler{}));
   EXPECT_EQ(far.least, 6);
