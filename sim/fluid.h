@@ -32,7 +32,8 @@ struct Field {
 };
 
 /// One value for each face of a grid of cells: component a lies on the faces across axis a, of
-/// which there is one more than cells along that axis. Face i is the lower face of cell i.
+/// which there is one more than cells along that axis. Face i is the lower face of cell i. Of a
+/// periodic axis the first and the last face are one and hold the same value.
 using FaceFields = std::array<Field, 3>;
 
 /// The unit step along an axis.
@@ -185,8 +186,8 @@ std::vector<CellType> cell_types(const FluidProblem& problem, const FluidState& 
 constexpr ivec3 fluid_tile = {8, 4, 4};
 
 /// Cells away that what is in a cell may be found after a step of a sparse fluid: what is carried
-/// `courant` cells is interpolated from places less than one further. A liquid needs one more, for the
-/// faces around its particles.
+/// `courant` cells is interpolated from places less than one further. A liquid needs one more, for
+/// the faces around its particles.
 int active_margin(const FluidParameters& parameters);
 
 /// The cells that the step from a state on computes: those of tiles with a busy cell in them or

@@ -205,6 +205,11 @@ FluidProblem random_fluid(std::uint64_t seed) {
                               .velocity = {random.uniform(-0.2f, 0.2f), 0, 0}});
   for (std::size_t axis = 0; axis < 2; ++axis)
     for (double& value : problem.initial.velocity[axis].values) value = random.uniform(-1, 1);
+  // The first and the last face of a periodic axis are one.
+  if (domain.is_periodic(0)) {
+    Field& u = problem.initial.velocity[0];
+    for (int y = 0; y < cells.y; ++y) u(cells.x, y, 0) = u(0, y, 0);
+  }
   if (is_liquid(p.method))
     add_liquid(problem, dvec3(0), {0.6, 0.6 * cells.y * domain.spacing, domain.spacing});
   problem.duration = 0.5;

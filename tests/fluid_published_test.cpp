@@ -11,6 +11,7 @@
 #include "gpu/fluid/step.h"
 #include "tests/fluid/cavity_flow.h"
 #include "tests/fluid/fluid_fields.h"
+#include "tests/fluid/random_scenes.h"
 #include "tests/gpu_context.h"
 #include "tests/shared_data.h"
 
@@ -178,6 +179,12 @@ TEST(Hydrostatic, StratifiedFluidAtRestStaysAtRest) {
   const double weight = 1000 * 9.81 / 24;
   for (int y = 1; y < 24; ++y)
     EXPECT_NEAR(state.pressure(3, y - 1, 0) - state.pressure(3, y, 0), weight, 1e-4 * weight);
+}
+
+TEST(FluidSimulation, TheAdaptiveStepStaysStableInRandomScenes) {
+  // The chart fluid/random_scenes runs a hundred.
+  for (const std::uint64_t seed : {1u, 2u, 3u, 5u, 8u, 13u})
+    EXPECT_LE(speed_over_bound(test_context(), random_fluid(seed), 0.04), 1) << seed;
 }
 
 /// Fronts of a series of Martin & Moyce: times and places.
