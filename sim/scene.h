@@ -91,7 +91,7 @@ struct SimSolver {
   std::optional<double> courant;      ///< none: the method's own
   std::optional<double> max_step;     ///< s
   std::optional<double> sound_speed;  ///< m/s, wcsph; none: ten times that of the fall
-  double artificial_viscosity = 0.1;  ///< wcsph, dfsph
+  double artificial_viscosity = 0.1;  ///< wcsph
   bool implicit_viscosity = false;    ///< wcsph, dfsph
   double flip_ratio = 0.97;           ///< flip: 0 is PIC, 1 is FLIP
   bool sparse = false;                ///< grids: only tiles near what moves or is there

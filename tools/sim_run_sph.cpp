@@ -47,6 +47,14 @@ bool is_taken(const SimScene& scene, std::size_t liquid, const dvec3& p) {
          std::ranges::any_of(scene.solids, holds);
 }
 
+/// Is a place less than half a spacing, but for rounding, from a side of the domain? A particle
+/// there would start compressed against the wall.
+bool is_pressed(const SimScene& scene, const dvec3& p) {
+  for (int d = 0; d < scene.dimensions; ++d)
+    if (std::min(p[d], scene.size[d] - p[d]) < 0.49 * scene.spacing) return true;
+  return false;
+}
+
 void add_liquid(const SimScene& scene, std::size_t index, SphProblem& problem) {
   const SimBody& body = scene.liquid[index];
   const bool is_ball = body.shape.kind == SimShape::Kind::sphere;
@@ -54,7 +62,10 @@ void add_liquid(const SimScene& scene, std::size_t index, SphProblem& problem) {
   if (is_ball) box = {body.shape.center - body.shape.radius, body.shape.center + body.shape.radius};
   if (scene.dimensions == 2) box.low.z = box.high.z = 0;
   for (const vec3& p : fill_box(box, scene.spacing, problem.parameters.dimensions)) {
-    if ((is_ball && !contains(body.shape, dvec3(p))) || is_taken(scene, index, dvec3(p))) continue;
+    const dvec3 at(p);
+    if ((is_ball && !contains(body.shape, at)) || is_pressed(scene, at) ||
+        is_taken(scene, index, at))
+      continue;
     problem.initial.positions.push_back(p);
     problem.initial.velocities.push_back(vec3(body.velocity));
   }
