@@ -11,7 +11,8 @@ namespace parity {
 ///
 /// Rows are roughness i / 15, at least 1/64; columns the cosine c at which
 /// (c (1 + alpha) / (c + alpha))^(1/2) = j / 15. White light comes back as x F0 + y (GGX, one bounce,
-/// Schlick); z is the mean of x + y over the cosine-weighted hemisphere; w is the albedo of a white
+/// Schlick); z is the root of 1 less the mean of x + y over the
+/// cosine-weighted hemisphere: of what one bounce loses, which is no line between rows; w is the albedo of a white
 /// Charlie sheen at the cosine (j / 15)^2.
 ///
 /// Source: Karis 2013; Kulla & Conty 2017; Estevez & Kulla 2017.

@@ -119,11 +119,19 @@ TEST(Energy, OneBounceHasTheClosedForm) {
   EXPECT_NEAR(returned(on_device(), q, 1, 96), one_bounce, 1e-3);
 }
 
+TEST(Energy, TheTableIsWhatIsComputedToFiveDigits) {
+  const Grid<dvec4> computed = cpu::albedo_table(albedo_table().width(), 64);
+  for (std::size_t i = 0; i < computed.size(); ++i)
+    for (int c = 0; c < 4; ++c)
+      EXPECT_NEAR(double(albedo_table().values()[i][c]), computed.values()[i][c], 0.6e-5)
+          << i << ", " << c;
+}
+
 /// Checklist row 108.
 TEST(EnergyErratum, SingleScatteringIsNotEnergyConserving) {
-  EXPECT_LT(furnace_error(on_cpu(), brdf_ggx_multi_scatter, 64), 0.01);
+  EXPECT_LT(furnace_error(on_cpu(), brdf_ggx_multi_scatter, 192), 0.01);
   EXPECT_GT(furnace_error(on_cpu(), brdf_ggx, 64), 0.6);
-  EXPECT_LT(furnace_error(on_device(), brdf_ggx_multi_scatter, 64), 0.01);
+  EXPECT_LT(furnace_error(on_device(), brdf_ggx_multi_scatter, 192), 0.01);
 }
 
 BrdfQuery of_model(std::uint32_t model, float exponent, double roughness) {

@@ -138,7 +138,7 @@ Grid<dvec4> albedo_table(int side, int samples) {
           entry(roughness, cosine_of(column, side, roughness * roughness),
                 std::max(0.001, std::pow(double(column) / (side - 1), 2)), samples);
     const double mean = mean_of(table, row);
-    for (int column = 0; column < side; ++column) table(column, row).z = mean;
+    for (int column = 0; column < side; ++column) table(column, row).z = std::sqrt(1 - mean);
   }
   return table;
 }

@@ -136,8 +136,9 @@ dvec3 albedo_at(const Grid<vec4>& table, double cosine, double roughness) {
   const double bounded = std::clamp(roughness, 1.0 / 64, 1.0);
   const double alpha = bounded * bounded;
   const double c = std::clamp(cosine, 1e-6, 1.0);
-  return dvec3(
-      between_nodes(table, std::sqrt((1 + alpha) / (1 + alpha / c)) * last, bounded * last));
+  const dvec4 entry =
+      between_nodes(table, std::sqrt((1 + alpha) / (1 + alpha / c)) * last, bounded * last);
+  return {entry.x, entry.y, 1 - entry.z * entry.z};
 }
 
 double sheen_albedo_at(const Grid<vec4>& table, double cosine, double roughness) {

@@ -31,7 +31,8 @@ double beckmann_density(const dvec3& h, const dvec2& alpha);
 double ggx_shadowing(const dvec3& l, const dvec3& v, const dvec2& alpha);
 double beckmann_shadowing(const dvec3& l, const dvec3& v, const dvec2& alpha);
 
-/// Entries x, y, z of a table of directional albedos, and w, linear between its nodes.
+/// Slope, offset and mean of a table of directional albedos (geometry/albedo_table.h), and the
+/// albedo of a sheen, linear between its nodes but for the mean, 1 - z^2.
 ///
 /// @param table  of albedo_table, any side.
 dvec3 albedo_at(const Grid<vec4>& table, double cosine, double roughness);

@@ -138,7 +138,7 @@ Triple<Real> tabulated_albedo(const Grid<vec4>& table, const Real& cosine, const
   const Real last{double(table.width() - 1)};
   const Real x = square_root(c * (Real(1.0) + alpha) / (c + alpha)) * last;
   const auto entry = between(table, x, y * last);
-  return {entry[0], entry[1], entry[2]};
+  return {entry[0], entry[1], Real(1.0) - square(entry[2])};
 }
 
 template <class Real>

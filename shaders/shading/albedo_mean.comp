@@ -2,8 +2,8 @@
 #include "shading/layout.h"
 #include "shading/multi_scatter.glsl"
 
-// Mean albedo over the cosine-weighted hemisphere, 2 int E(c) c dc, of what the table gives: 256
-// midpoints of c^2. One thread a row. Source: Kulla & Conty 2017.
+// Root of 1 less the mean albedo over the cosine-weighted hemisphere, 2 int E(c) c dc, of what the
+// table gives: 256 midpoints of c^2. One thread a row. Source: Kulla & Conty 2017.
 layout(local_size_x = 16) in;
 layout(scalar, push_constant) uniform Push { AlbedoTableArgs args; };
 
@@ -19,5 +19,6 @@ void main() {
     const vec4 next = args.table.at[row * albedo_side + column + 1u];
     sum += mix(at.x + at.y, next.x + next.y, x - float(column));
   }
-  for (uint i = 0u; i < albedo_side; ++i) args.table.at[row * albedo_side + i].z = sum / 256.0;
+  const float root = sqrt(max(1.0 - sum / 256.0, 0.0));
+  for (uint i = 0u; i < albedo_side; ++i) args.table.at[row * albedo_side + i].z = root;
 }

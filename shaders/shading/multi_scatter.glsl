@@ -30,7 +30,8 @@ vec4 albedo_between(ref_vec4 table, float x, float row) {
 vec3 albedo_at(ref_vec4 table, float cosine, float roughness) {
   const float y = clamp(roughness, 1.0 / 64.0, 1.0);
   const float x = albedo_column(clamp(cosine, 1e-6, 1.0), y * y);
-  return albedo_between(table, x, y * float(albedo_side - 1u)).xyz;
+  const vec4 at = albedo_between(table, x, y * float(albedo_side - 1u));
+  return vec3(at.xy, 1.0 - at.z * at.z);
 }
 
 // The part of white light from everywhere that a white sheen sends back; columns are the square root

@@ -25,7 +25,9 @@ double distance(const Grid<dvec4>& got, const Grid<dvec4>& want) {
     for (int column = 0; column < want.width(); ++column) {
       const dvec4 apart = glm::abs(got(column, row) - want(column, row));
       const double bound = shading_test::u * (64 + 40 / alpha_of_row(row));
-      worst = std::max({worst, apart.x / bound, apart.y / bound, apart.z / bound, apart.w / 4e-5});
+      const double mean =
+          std::abs(std::pow(got(column, row).z, 2) - std::pow(want(column, row).z, 2));
+      worst = std::max({worst, apart.x / bound, apart.y / bound, mean / bound, apart.w / 4e-5});
     }
   return worst;
 }

@@ -61,8 +61,8 @@ inline double returned(const Brdf& brdf, const BrdfQuery& q, double alpha, int n
 /// cosines 0.02 to 1.
 inline double furnace_error(const Brdf& brdf, std::uint32_t model, int n) {
   double worst = 0;
-  for (const double roughness : {0.05, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 1.0})
-    for (const double cosine : {0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0}) {
+  for (const double roughness : {0.05, 0.1, 0.12, 0.15, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 1.0})
+    for (const double cosine : {0.02, 0.05, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0}) {
       const BrdfQuery q = microfacet_query(model, roughness, toward(1), toward(cosine));
       worst = std::max(worst, std::abs(returned(brdf, q, double(q.alpha.x), n) - 1));
     }
