@@ -109,7 +109,8 @@ void draw_series(Canvas& canvas, std::size_t index, const std::set<Place>& front
                                          three_digits(point.x), three_digits(point.y));
     canvas.svg.marker(x, y, is_device(series), hollow ? "white" : color, color, hint,
                       is_device(series) ? 5 : 3.5);
-    if (canvas.names_points && !point.label.empty())
+    const bool is_place = point.label.starts_with(canvas.chart.x.label + "=");  // the axis says it
+    if (canvas.names_points && !point.label.empty() && !is_place)
       canvas.svg.text(x + 7, y - 7, point.label, {.size = 10, .color = "#555"});
   }
 }
