@@ -214,6 +214,7 @@ Field PressureSystem::to_field(const std::vector<PressureQuad>& quads) const {
 }
 
 void PressureSystem::upload(Context& context, const PressureProblem& problem) {
+  pressures_[0].write(to_quads(problem.guess));
   if (shape_.with_words) {
     std::vector<std::uint32_t> types;
     for (const CellType type : problem.types) types.push_back(std::uint32_t(type));
@@ -225,7 +226,6 @@ void PressureSystem::upload(Context& context, const PressureProblem& problem) {
       record_pack(commands, type_buffer, {open[0].ref(), open[1].ref(), open[2].ref()}, false);
     });
   }
-  pressures_[0].write(to_quads(problem.guess));
   right_sides_[0].write(to_quads(problem.rhs));
   SolverControl control{};
   control.tolerance = float(problem.tolerance);

@@ -64,7 +64,8 @@ class PressureSystem {
     return tiles_ != nullptr ? tiles_->table() : BufferRef<TileTable>{};
   }
 
-  /// Words of all grids. Arrays are those of sim/pressure.h in float.
+  /// Words of all grids; cells that are not fluid lose their pressure. Arrays are those of
+  /// sim/pressure.h in float.
   ///
   /// @param keep_tiles  tiles that are active, or not, as at the last call keep their words.
   void record_pack(Commands& commands, BufferRef<std::uint32_t> types,

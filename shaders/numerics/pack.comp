@@ -4,7 +4,8 @@
 #include "numerics/tiles.glsl"
 
 // The words of the finest grid from the types of cells and the open parts of faces; one thread a
-// cell; of tiles also those that were left. Source: numerics/layout.h.
+// cell; of tiles also those that were left. What is no fluid, or no longer, has pressure 0: neighbours
+// read it. Source: numerics/layout.h.
 layout(local_size_x = 64) in;
 layout(scalar, push_constant) uniform Push { PackArgs args; };
 
@@ -48,4 +49,5 @@ void main() {
   }
   if ((word & 0x3fffffffu) == 0u) word &= ~pressure_fluid;
   ref_uint(args.level.words).at[slot] = word;
+  if ((word & pressure_fluid) == 0u) ref_float(args.level.pressure).at[slot] = 0.0;
 }

@@ -195,6 +195,9 @@ const Registration liquid_registration = register_stage<Problem, FluidState>(
            p.method = FluidMethod(setting.count("method"));
            p.max_iterations = 60;
            p.divergence = 1e-4;
+           // A guess that is wrong in the air too, where no solve sets it right.
+           Random random(11, 2);
+           for (double& pa : problem.fluid.initial.pressure.values) pa = random.uniform(0, 1e4f);
            LiquidParticles& particles = problem.fluid.initial.particles;
            for (std::size_t i = 0; i < particles.count(); ++i) {
              const vec3 x = 3.0f * particles.positions[i];
