@@ -72,6 +72,8 @@ struct FluidDomain {
 enum class FluidMethod : std::uint32_t { upwind, central, semi_lagrangian, maccormack, flip, apic };
 constexpr bool is_liquid(FluidMethod method) { return method >= FluidMethod::flip; }
 constexpr bool is_split(FluidMethod method) { return method >= FluidMethod::semi_lagrangian; }
+/// Of the error in time: a step's own error is of one order more.
+constexpr int order_of(FluidMethod method) { return is_split(method) ? 1 : 3; }
 
 /// Order of the Runge-Kutta method that traces back: 2 or 3.
 enum class BackTrace : std::uint32_t { rk2, rk3 };
@@ -79,19 +81,20 @@ enum class BackTrace : std::uint32_t { rk2, rk3 };
 struct FluidParameters {
   FluidMethod method = FluidMethod::maccormack;
   BackTrace back_trace = BackTrace::rk2;
-  double density = 1;                 ///< kg/m^3
-  double viscosity = 0;               ///< m^2/s, kinematic
-  bool implicit_viscosity = false;    ///< split methods only
-  dvec3 force{0};                     ///< m/s^2 on all the fluid: gravity of a liquid, a push
-  double heat_lift = 0;               ///< m/s^2 upwards (y) for each kelvin above the surroundings
-  double smoke_weight = 0;            ///< m/s^2 downwards for smoke of density 1
-  double cooling = 0;                 ///< 1/s, of the temperature
-  double vorticity_confinement = 0;   ///< epsilon of Fedkiw et al. 2001
-  double flip_ratio = 0.97;           ///< flip only; 0: PIC
-  double courant = 0.9;               ///< cells that the fastest fluid crosses in a step
-  double fixed_step = 0;              ///< s; 0: adaptive
-  double max_step = 0.05;             ///< s, of an adaptive step
-  double divergence = 1e-3;           ///< 1/s, largest that the projection may leave
+  double density = 1;                ///< kg/m^3
+  double viscosity = 0;              ///< m^2/s, kinematic
+  bool implicit_viscosity = false;   ///< split methods only
+  dvec3 force{0};                    ///< m/s^2 on all the fluid: gravity of a liquid, a push
+  double heat_lift = 0;              ///< m/s^2 upwards (y) for each kelvin above the surroundings
+  double smoke_weight = 0;           ///< m/s^2 downwards for smoke of density 1
+  double cooling = 0;                ///< 1/s, of the temperature
+  double vorticity_confinement = 0;  ///< epsilon of Fedkiw et al. 2001
+  double flip_ratio = 0.97;          ///< flip only; 0: PIC
+  double courant = 0.9;              ///< cells that the fastest fluid crosses in a step
+  double fixed_step = 0;             ///< s; 0: adaptive
+  double max_step = 0.05;            ///< s, of an adaptive step
+  double step_error = 0;     ///< of the velocity in a step, a part of the largest; 0: CFL alone
+  double divergence = 1e-3;  ///< 1/s, largest that the projection may leave
   std::uint32_t max_iterations = 30;  ///< of the pressure solver, a projection
   bool sparse = false;                ///< only active cells are computed: active_cells
   double busy_smoke = 1e-3;           ///< density, what makes a cell busy

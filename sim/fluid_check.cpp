@@ -66,6 +66,10 @@ void check_parameters(const FluidParameters& p) {
   require_positive("courant", p.courant);
   require_at_least("fixed_step", p.fixed_step, 0);
   require_positive("max_step", p.max_step);
+  require(p.step_error == 0 || (p.step_error >= 1e-6 && p.step_error <= 0.1),
+          "step_error is " + std::to_string(p.step_error) + ", must be 0 or 1e-6 to 0.1");
+  require(p.step_error == 0 || (!is_liquid(p.method) && !p.sparse && p.fixed_step == 0),
+          "step_error is for adaptive steps of fluids that fill the whole box");
   require_positive("divergence", p.divergence);
   require_at_least("busy_smoke", p.busy_smoke, 0);
   require_at_least("busy_heat", p.busy_heat, 0);

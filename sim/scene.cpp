@@ -92,6 +92,15 @@ std::string sparse_fault(const SimScene& scene) {
   return {};
 }
 
+std::string error_fault(const SimScene& scene) {
+  if (!scene.solver.error) return {};
+  if (scene.method != SimMethod::grid)
+    return std::string("solver.error: method ") + name_of(scene.method) +
+           " chooses its steps by speed alone; use grid";
+  if (scene.solver.sparse) return "solver.error: is not for sparse scenes";
+  return {};
+}
+
 std::string shape_fault(const SimScene& scene) {
   for (std::size_t i = 0; i < scene.liquid.size(); ++i)
     if (!is_inside(scene, scene.liquid[i].shape))
@@ -171,6 +180,7 @@ std::string scene_fault(const SimScene& scene) {
   if (const std::string fault = side_fault(scene); !fault.empty()) return fault;
   if (const std::string fault = shape_fault(scene); !fault.empty()) return fault;
   if (const std::string fault = sparse_fault(scene); !fault.empty()) return fault;
+  if (const std::string fault = error_fault(scene); !fault.empty()) return fault;
   const bool is_grid = scene.method == SimMethod::grid;
   if (is_grid && !scene.liquid.empty())
     return "liquid: method grid fills the domain; use flip, apic, wcsph or dfsph for liquids";

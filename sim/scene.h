@@ -90,6 +90,7 @@ struct SimSolver {
   double density_error = 1e-3;        ///< dfsph: average compression left
   std::optional<double> courant;      ///< none: the method's own
   std::optional<double> max_step;     ///< s
+  std::optional<double> error;        ///< grid: of the velocity in a step, a part of the largest
   std::optional<double> sound_speed;  ///< m/s, wcsph; none: ten times that of the fall
   double artificial_viscosity = 0.1;  ///< wcsph
   bool implicit_viscosity = false;    ///< wcsph, dfsph

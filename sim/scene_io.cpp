@@ -242,7 +242,7 @@ void read_fluid(const Node& root, SimFluid& fluid) {
 void read_solver(const Node& root, SimSolver& solver) {
   if (!root.has("solver")) return;
   const Node node = root.at("solver");
-  node.expect_keys({"advection", "divergence", "density_error", "courant", "max_step",
+  node.expect_keys({"advection", "divergence", "density_error", "courant", "max_step", "error",
                     "sound_speed", "artificial_viscosity", "implicit_viscosity", "flip_ratio",
                     "sparse"});
   if (node.has("advection"))
@@ -253,6 +253,7 @@ void read_solver(const Node& root, SimSolver& solver) {
   node.read("density_error", solver.density_error, {1e-6, 0.1});
   node.read("courant", solver.courant, {1e-3, 20});
   node.read("max_step", solver.max_step, {1e-7, 10});
+  node.read("error", solver.error, {1e-6, 0.1});
   node.read("sound_speed", solver.sound_speed, {1e-3, 1e5});
   node.read("artificial_viscosity", solver.artificial_viscosity, {0, 10});
   if (node.has("implicit_viscosity"))
@@ -391,8 +392,8 @@ std::string physics_text(const SimScene& scene) {
                 f.vorticity_confinement}},
               {"solver",
                {int(s.advection), s.divergence, s.density_error, optional_json(s.courant),
-                optional_json(s.max_step), optional_json(s.sound_speed), s.artificial_viscosity,
-                s.implicit_viscosity, s.flip_ratio, s.sparse}},
+                optional_json(s.max_step), optional_json(s.error), optional_json(s.sound_speed),
+                s.artificial_viscosity, s.implicit_viscosity, s.flip_ratio, s.sparse}},
               {"start", int(scene.start)},
               {"liquid", bodies_json(scene.liquid)},
               {"solids", bodies_json(scene.solids)},

@@ -94,6 +94,9 @@ TEST(SimScene, RefusesEachFaultInOneLineWithItsPlace) {
       {"/fluid/viscosity", -1, "fluid.viscosity is -1, must be from 0.0"},
       {"/fluid/density", json(), "fluid.density is null, must be a number"},
       {"/solver/courant", 1e6, "solver.courant is 1000000.0, must be from"},
+      {"/solver/error", 0, "solver.error is 0, must be from"},
+      {"/solver/error", 0.2, "solver.error is 0.2, must be from"},
+      {"/solver/error", 0.01, "solver.error: method wcsph chooses its steps by speed alone"},
       {"/solver/sparse", 1, "solver.sparse is 1, must be true or false"},
       {"/solver/sparse", true, "solver.sparse: method wcsph has no cells"},
       {"/gravity", json{0, -9.81}, "gravity is an array of 2, must be an array of 3 numbers"},
@@ -143,6 +146,7 @@ TEST(SimScene, SparseScenesAreWhatTheDeviceCanDo) {
   };
   says(refused("/solver/advection", "central"), "solver.sparse: needs advection");
   says(refused("/solver/courant", 4), "solver.courant is 4.0");
+  says(refused("/solver/error", 0.01), "solver.error: is not for sparse scenes");
   says(refused("/domain/sides", json{{"left", "periodic"}, {"right", "periodic"}}),
        "solver.sparse: domain.sides.left is periodic");
   says(refused("/solids", json::parse(R"([{"sphere": {"center": [0.5, 1], "radius": 0.1},

@@ -77,6 +77,7 @@ void expect_equal_runs(const std::filesystem::path& a, const std::filesystem::pa
   const json n = json::parse(bytes_of(b / "metrics.json"));
   EXPECT_EQ(m["frames"], n["frames"]);
   EXPECT_EQ(m["steps"], n["steps"]);
+  EXPECT_EQ(m.value("refused_steps", 0), n.value("refused_steps", 0));
 }
 
 void expect_resumes(const std::string& backend, const SimScene& scene) {
@@ -110,6 +111,13 @@ TEST(SimVerb, ResumedGridsGoOnToTheSameBits) {
       expect_resumes("gpu", scene);
       expect_resumes("cpu", scene);
     }
+}
+
+TEST(SimVerb, ResumedStepsByErrorGoOnToTheSameBits) {
+  SimScene scene = decode_sim_scene(small_smoke, "small.json");
+  scene.solver.error = 3e-3;
+  expect_resumes("gpu", scene);
+  expect_resumes("cpu", scene);
 }
 
 TEST(SimVerb, SmokeComesOutOfItsSourceAndLiquidKeepsItsMass) {

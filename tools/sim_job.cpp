@@ -160,24 +160,26 @@ class Runner {
   }
 
   json metrics(bool finished) const {
-    return {{"schema", "parity.sim"},
-            {"version", 1},
-            {"scene", job_.input},
-            {"title", scene_.title},
-            {"method", name_of(scene_.method)},
-            {"backend", job_.backend},
-            {"device", simulation_.device},
-            {"dimensions", scene_.dimensions},
-            {"spacing_m", scene_.spacing},
-            {"particles", simulation_.particles},
-            {"cells", simulation_.cells},
-            {"duration_s", scene_.duration},
-            {"finished", finished},
-            {"steps", steps_},
-            {"seconds", seconds()},
-            {"step_seconds", step_seconds_},
-            {"draw_seconds", draw_seconds_},
-            {"frames", history_}};
+    json result{{"schema", "parity.sim"},
+                {"version", 1},
+                {"scene", job_.input},
+                {"title", scene_.title},
+                {"method", name_of(scene_.method)},
+                {"backend", job_.backend},
+                {"device", simulation_.device},
+                {"dimensions", scene_.dimensions},
+                {"spacing_m", scene_.spacing},
+                {"particles", simulation_.particles},
+                {"cells", simulation_.cells},
+                {"duration_s", scene_.duration},
+                {"finished", finished},
+                {"steps", steps_},
+                {"seconds", seconds()},
+                {"step_seconds", step_seconds_},
+                {"draw_seconds", draw_seconds_},
+                {"frames", history_}};
+    if (simulation_.refused) result["refused_steps"] = simulation_.refused();
+    return result;
   }
 
   int stop(int code, bool finished) {

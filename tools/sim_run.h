@@ -50,6 +50,7 @@ struct Simulation {
   std::function<bool(double until)> has_reached;
   /// One or a few adaptive steps, never beyond `until`; how many.
   std::function<std::uint64_t(double until)> step;
+  std::function<std::uint64_t()> refused;  ///< steps taken back for their error; may be null
   std::function<SimMeasures()> measures;
   std::function<SimContent()> content;
   std::function<std::string()> save;

@@ -3,8 +3,10 @@
 #include <memory>
 #include <numbers>
 
+#include "cpu_reference/fluid/adapt.h"
 #include "cpu_reference/fluid/liquid.h"
 #include "cpu_reference/fluid/step.h"
+#include "gpu/fluid/adapt.h"
 #include "gpu/fluid/step.h"
 #include "tools/sim_bytes.h"
 #include "tools/sim_run_methods.h"
@@ -63,6 +65,7 @@ FluidParameters parameters_of(const SimScene& scene) {
   p.flip_ratio = scene.solver.flip_ratio;
   p.courant = scene.solver.courant.value_or(p.courant);
   p.max_step = scene.solver.max_step.value_or(p.max_step);
+  p.step_error = scene.solver.error.value_or(0);
   p.divergence = scene.solver.divergence;
   p.sparse = scene.solver.sparse;
   return p;
@@ -187,7 +190,7 @@ SimMeasures measures_of(const FluidProblem& problem, const FluidState& state) {
 
 /// All numbers of the device are floats; the reference's are not, and keep their bits.
 template <typename Number>
-std::string save_state(const FluidState& state) {
+std::string save_state(const FluidState& state, const StepControl& control) {
   ByteWriter writer;
   const auto field = [&](const Field& f) {
     writer.list(std::vector<Number>(f.values.begin(), f.values.end()));
@@ -199,11 +202,13 @@ std::string save_state(const FluidState& state) {
   writer.list(state.particles.positions);
   writer.list(state.particles.velocities);
   writer.list(state.particles.gradients);
+  writer.value(control);
   return writer.take();
 }
 
 template <typename Number>
-FluidState restore_state(std::string_view bytes, const FluidProblem& problem) {
+FluidState restore_state(std::string_view bytes, const FluidProblem& problem,
+                         StepControl& control) {
   ByteReader reader(bytes);
   FluidState state = problem.initial;
   const auto field = [&](Field& f, const char* what) {
@@ -221,6 +226,9 @@ FluidState restore_state(std::string_view bytes, const FluidProblem& problem) {
   p.positions = reader.list<vec3>(p.positions.size(), "positions");
   p.velocities = reader.list<vec3>(p.velocities.size(), "velocities of particles");
   p.gradients = reader.list<mat3>(p.gradients.size(), "gradients");
+  control = reader.value<StepControl>();
+  if (!(control.allowed >= 0 && control.allowed < 1e9))
+    throw std::runtime_error("has a wrong step");
   if (!reader.is_at_end()) throw std::runtime_error("goes on after its end");
   return state;
 }
@@ -236,17 +244,27 @@ Simulation start_grid_on_device(const SimScene& scene, gpu::Context& context) {
   s.cells = problem->domain.cell_count();
   s.time = [fluid] { return double(fluid->clock().time); };
   s.has_reached = [fluid](double until) { return fluid->clock().time >= float(until); };
-  s.step = [fluid, &context](double until) {
-    const std::uint32_t before = fluid->clock().steps;
-    fluid->set_end(until);  // one step: none may follow the last of a frame
-    context.run([&](gpu::Commands& commands) { fluid->record_step(commands); });
-    return std::uint64_t(fluid->clock().steps - before);
-  };
+  const auto control = std::make_shared<StepControl>();
+  if (problem->parameters.step_error > 0) {
+    const auto adaptive =
+        std::make_shared<gpu::AdaptiveFluid>(context, *fluid, problem->parameters);
+    s.refused = [control] { return std::uint64_t(control->refused); };
+    s.step = [adaptive, fluid, control](double until) {
+      return std::uint64_t(adaptive->step(*control, until));
+    };
+  } else {
+    s.step = [fluid, &context](double until) {
+      const std::uint32_t before = fluid->clock().steps;
+      fluid->set_end(until);  // one step: none may follow the last of a frame
+      context.run([&](gpu::Commands& commands) { fluid->record_step(commands); });
+      return std::uint64_t(fluid->clock().steps - before);
+    };
+  }
   s.measures = [fluid, problem] { return measures_of(*problem, fluid->read()); };
   s.content = [fluid, problem] { return content_of(*problem, fluid->read()); };
-  s.save = [fluid] { return save_state<float>(fluid->read()); };
-  s.restore = [fluid, problem](std::string_view bytes) {
-    fluid->write(restore_state<float>(bytes, *problem));
+  s.save = [fluid, control] { return save_state<float>(fluid->read(), *control); };
+  s.restore = [fluid, problem, control](std::string_view bytes) {
+    fluid->write(restore_state<float>(bytes, *problem, *control));
   };
   return s;
 }
@@ -260,23 +278,26 @@ Simulation start_grid_on_host(const SimScene& scene) {
   s.cells = problem->domain.cell_count();
   s.time = [state] { return state->time; };
   s.has_reached = [state](double until) { return state->time >= until; };
-  s.step = [state, problem](double until) {
-    const FluidParameters& p = problem->parameters;
-    const double h = problem->domain.spacing, axes = problem->domain.is_flat() ? 2 : 3;
-    const double speed = std::max(axes * measure(*problem, *state).max_speed, 1e-9);
-    double step = std::min(p.max_step, p.courant * h / speed);
-    if (p.viscosity > 0) step = std::min(step, 0.9 * h * h / (2 * axes * p.viscosity));
-    const double left = until - state->time;
-    *state = is_liquid(p.method) ? cpu::liquid_step(*problem, *state, std::min(step, left))
-                                 : cpu::step(*problem, *state, std::min(step, left));
+  const auto control = std::make_shared<StepControl>();
+  const bool is_by_error = problem->parameters.step_error > 0;
+  if (is_by_error) s.refused = [control] { return std::uint64_t(control->refused); };
+  s.step = [state, problem, control, is_by_error](double until) {
+    if (is_by_error) {
+      *state = cpu::adaptive_step(*problem, *state, *control, until);
+      return std::uint64_t(1);
+    }
+    const double step = cpu::stable_step(*problem, *state), left = until - state->time;
+    *state = is_liquid(problem->parameters.method)
+                 ? cpu::liquid_step(*problem, *state, std::min(step, left))
+                 : cpu::step(*problem, *state, std::min(step, left));
     if (step >= left) state->time = until;
     return std::uint64_t(1);
   };
   s.measures = [state, problem] { return measures_of(*problem, *state); };
   s.content = [state, problem] { return content_of(*problem, *state); };
-  s.save = [state] { return save_state<double>(*state); };
-  s.restore = [state, problem](std::string_view bytes) {
-    *state = restore_state<double>(bytes, *problem);
+  s.save = [state, control] { return save_state<double>(*state, *control); };
+  s.restore = [state, problem, control](std::string_view bytes) {
+    *state = restore_state<double>(bytes, *problem, *control);
   };
   return s;
 }

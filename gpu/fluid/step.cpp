@@ -88,7 +88,11 @@ FluidArgs FluidSimulation::args() const {
 void FluidSimulation::set_end(double time) {
   FluidClock now = clock();
   now.end = float(time);
-  buffers_.clock.write(std::vector<FluidClock>{now});
+  write_clock(now);
+}
+
+void FluidSimulation::write_clock(const FluidClock& clock) {
+  buffers_.clock.write(std::vector<FluidClock>{clock});
 }
 
 void FluidSimulation::visit_all_tiles() {
@@ -176,7 +180,11 @@ FluidState FluidSimulation::run_part(Part part, float seconds) {
 }
 
 void FluidSimulation::record_step(Commands& commands) {
-  record_clock(commands, 0);
+  record_choice(commands);
+  record_given_step(commands);
+}
+
+void FluidSimulation::record_given_step(Commands& commands) {
   if (liquid_) liquid_->record_sort(commands);
   if (active_tiles_) record_tiles(commands);
   if (std::ranges::any_of(problem_.solids,

@@ -24,6 +24,10 @@ class FluidSimulation {
 
   /// One step, at most to the time of set_end.
   void record_step(Commands& commands);
+  /// The two halves of record_step: the clock's choice of a step, and a step that is in the clock.
+  void record_choice(Commands& commands) { record_clock(commands, 0); }
+  void record_given_step(Commands& commands);
+  void write_clock(const FluidClock& clock);
   /// Time that steps do not pass; call between runs.
   void set_end(double time);
 
@@ -49,6 +53,7 @@ class FluidSimulation {
   const FluidBuffers& buffers() const { return buffers_; }
   const Buffer<float>& smoke() const { return smoke_; }
   const Buffer<float>& temperature() const { return temperature_; }
+  const Buffer<PressureQuad>& pressure() const { return projection_.system().pressure(); }
   /// Bytes on the device.
   std::uint64_t memory_bytes() const { return memory_bytes_; }
 

@@ -7,7 +7,9 @@
 
 // The largest speed along each axis: one thread finds it for `weight` faces of an axis. Source: notes
 // 10.4, the CFL condition.
+// Specialized with of_difference: the largest difference to `other` instead, of the whole box.
 layout(local_size_x = 64) in;
+layout(constant_id = 3) const uint of_difference = 0u;
 layout(scalar, push_constant) uniform Push { FluidArgs args; };
 
 void main() {
@@ -29,7 +31,10 @@ void main() {
   const uvec3 cells = args.scene.at[0].cells;
   const uint begin = gl_GlobalInvocationID.x * run;
   const uint end = min(begin + run, point_count(points_of(cells, args.axis)));
-  for (uint k = begin; k < end; ++k)
-    largest = max(largest, abs(read_face(args.velocity, args.axis, k)));
+  for (uint k = begin; k < end; ++k) {
+    float value = read_face(args.velocity, args.axis, k);
+    if (of_difference != 0u) value -= read_face(args.other, args.axis, k);
+    largest = max(largest, abs(value));
+  }
   if (begin < end) args.field.at[args.mode + gl_GlobalInvocationID.x] = largest;
 }
