@@ -211,9 +211,11 @@ std::vector<cpu::SpectrumPeak> clear_peaks(const Grid<dvec2>& spectrum, int coun
   std::vector<cpu::SpectrumPeak> peaks = cpu::spectrum_peaks(spectrum, count);
   std::erase_if(peaks, [least = peaks.empty() ? 0 : sidelobes * peaks[0].amplitude](
                            const cpu::SpectrumPeak& peak) { return peak.amplitude < least; });
-  for (cpu::SpectrumPeak& peak : peaks) peak.frequency += 0.0;  // no -0
   return peaks;
 }
+
+/// To the five digits that are printed, without -0.
+double five_digits(double value) { return std::round(value * 1e5) / 1e5 + 0.0; }
 
 void print(const Options& options, const Signal& signal, const Found& found) {
   std::printf("%s: %dx%d px\n", signal.name.c_str(), found.size.x, found.size.y);
@@ -230,9 +232,9 @@ void print(const Options& options, const Signal& signal, const Found& found) {
   std::printf("cycles a pixel        length     period     direction  amplitude\n");
   for (const cpu::SpectrumPeak& peak : found.peaks) {
     const double f = glm::length(peak.frequency);
-    std::printf("(%8.5f, %8.5f)  %8.5f  %8.3f px  %8.2f deg  %.6g\n", peak.frequency.x,
-                peak.frequency.y, f, f > 0 ? 1 / f : 0.0, direction(peak.frequency),
-                peak.amplitude);
+    std::printf("(%8.5f, %8.5f)  %8.5f  %8.3f px  %8.2f deg  %.6g\n", five_digits(peak.frequency.x),
+                five_digits(peak.frequency.y), f, f > 0 ? 1 / f : 0.0,
+                five_digits(direction(peak.frequency)), peak.amplitude);
   }
 }
 
