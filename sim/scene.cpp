@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sim/fluid.h"
+
 namespace parity {
 namespace {
 
@@ -84,7 +86,7 @@ std::string sparse_fault(const SimScene& scene) {
   if (scene.solver.courant.value_or(1) > 3)
     return "solver.courant is " + std::to_string(*scene.solver.courant) +
            ", must be at most 3 where sparse";
-  const ivec3 tiles = (cells_of(scene) + ivec3(7, 3, 3)) / ivec3(8, 4, 4);
+  const ivec3 tiles = (cells_of(scene) + fluid_tile - 1) / fluid_tile;
   const long long count = 1LL * tiles.x * tiles.y * tiles.z;
   if (count > 65535)
     return "solver.sparse: gives " + std::to_string(count) +
