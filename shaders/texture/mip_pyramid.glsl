@@ -6,14 +6,17 @@
 
 layout(constant_id = 0) const bool srgb = true;
 
+// Values from 0 to 255; colours of sRGB in linear light.
 vec4 linear_texel(uint texel) {
-  const vec4 value = unpackUnorm4x8(texel);
+  const ivec4 codes = ivec4(texel & 255u, texel >> 8 & 255u, texel >> 16 & 255u, texel >> 24);
+  const vec4 value = vec4(codes);
   return srgb ? vec4(linear_from_srgb_curve(value.rgb), value.a) : value;
 }
 
+// Codes next to the values. Above 2^23 a float has no fraction: its low bits are the whole number.
 uint stored_texel(vec4 linear) {
-  const vec3 codes = srgb ? srgb_code_curve(linear.rgb) : linear.rgb * 255.0;
-  const uvec4 rounded = uvec4(vec4(codes, linear.a * 255.0) + 0.5);
+  const vec3 codes = srgb ? srgb_code_curve(linear.rgb) : linear.rgb;
+  const uvec4 rounded = floatBitsToUint(vec4(codes, linear.a) + 8388608.0) & 255u;
   return rounded.x | rounded.y << 8 | rounded.z << 16 | rounded.w << 24;
 }
 
