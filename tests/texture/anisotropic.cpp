@@ -185,6 +185,21 @@ double best_within(const std::vector<Point>& points, double cost) {
   return best;
 }
 
+/// Filters that do not follow the footprint, and what each reads.
+struct PlainFilter {
+  const char* name;
+  Sampler sampler;
+  double texels;
+};
+constexpr PlainFilter plain_filters[] = {
+    {"nearest", {.mag = Filter::nearest, .min = Filter::nearest, .mip = {}}, 1},
+    {"nearest, nearest level",
+     {.mag = Filter::nearest, .min = Filter::nearest, .mip = Filter::nearest},
+     1},
+    {"bilinear", {.mip = {}}, 4},
+    {"bilinear, nearest level", {.mip = Filter::nearest}, 4},
+};
+
 ChartData quality_per_cost(gpu::Context& context) {
   constexpr int side = 256;
   const std::vector<Grid<u8vec4>> levels = cpu::mip_pyramid(test_pattern(side), false);
@@ -211,16 +226,22 @@ ChartData quality_per_cost(gpu::Context& context) {
         point(hardware_fetches(context, most, footprints, side),
               gpu::hardware_sample(context, texture, footprints, gpu::Format::rgba32_float)));
   }
+  Series plain{"no footprint followed", {}};
+  for (const PlainFilter& filter : plain_filters) {
+    const auto colors = gpu::sample(context, {levels, false, filter.sampler}, footprints, 0.5f);
+    plain.points.push_back(
+        {filter.texels, psnr(truth, {colors.begin(), colors.end()}), filter.name});
+  }
   for (const Point& point : hardware.points)
     data.assertions.push_back(
         {"our PSNR at the device's texels a lookup over the device's, max. "
          "anisotropy " +
              point.label,
          best_within(all, point.x) / point.y, 1.0, Assertion::Relation::at_least});
-  data.series = {ours[0], ours[1], ours[2], hardware};
+  data.series = {ours[0], ours[1], ours[2], hardware, plain};
   data.settings = {{"picture", "96x64, a floor up to the horizon"},
                    {"texture", "256x256: checks, lines, noise"},
-                   {"labels", "max. anisotropy"},
+                   {"labels", "max. anisotropy; 1 is trilinear"},
                    {"texels of the device", "those with a weight, of 24 lookups"}};
   return data;
 }
