@@ -10,10 +10,11 @@ namespace parity {
 /// that no renderer has to wait for it. A test holds it to what they compute.
 ///
 /// Rows are roughness i / 15, at least 1/64; columns the cosine c at which
-/// (c (1 + alpha) / (c + alpha))^(1/2) = j / 15. White light comes back as x F0 + y (GGX, one bounce,
-/// Schlick); z is the root of 1 less the mean of x + y over the
-/// cosine-weighted hemisphere: of what one bounce loses, which is no line between rows; w is the albedo of a white
-/// Charlie sheen at the cosine (j / 15)^2.
+/// (c (1 + alpha) / (c + alpha))^(1/2) = j / 15. x is what comes back from a white surface (GGX, one
+/// bounce); Schlick's (1 - cosine)^5 is on the mean that of the cosine c + y, which is a line between
+/// columns where the weight itself is far from one; z is the root of 1 less the mean of x over the
+/// cosine-weighted hemisphere: of what one bounce loses, which is no line between rows; w is the
+/// albedo of a white Charlie sheen at the cosine (j / 15)^2.
 ///
 /// Source: Karis 2013; Kulla & Conty 2017; Estevez & Kulla 2017.
 const Grid<vec4>& albedo_table();

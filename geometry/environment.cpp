@@ -39,7 +39,7 @@ double density(const dvec2& uv) {
 }
 
 Grid<vec4> largest_level(const Grid<vec4>& picture, int side) {
-  const int parts = std::clamp(2 * picture.width() / (4 * side), 2, 8);
+  const int parts = std::max(picture.width() / side, 2);  // two to three samples a pixel and axis
   Grid<vec4> level{side, side};
 #pragma omp parallel for schedule(dynamic)
   for (int y = 0; y < side; ++y)

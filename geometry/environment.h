@@ -30,16 +30,20 @@ EnvironmentMap environment_map(const Grid<vec4>& picture, int side);
 
 /// What a renderer needs of an environment: cpu::prefilter and gpu::prefilter make it.
 struct EnvironmentLight {
-  /// Irradiance over pi of a surface with normal (x, y, z): coefficients of 1, y, z, x, x y, y z,
-  /// 3 z^2 - 1, x z, x^2 - y^2.
-  std::array<vec3, 9> irradiance{};
   /// What a mirror of roughness i / (size - 1) shows where it is looked at straight: octahedral,
   /// with a border of one texel that repeats what is across the edge.
   std::vector<Grid<vec4>> mirrors;
+  /// Irradiance over pi of a surface by its normal, likewise.
+  Grid<vec4> irradiance;
 };
 
 /// Sides of the levels of EnvironmentLight::mirrors without their borders.
 constexpr std::array<int, 6> mirror_sides{256, 128, 64, 32, 32, 32};
+
+/// Side of EnvironmentLight::irradiance without its border, and the most that the level of the map
+/// has whose texels it sums.
+constexpr int irradiance_side = 64;
+constexpr int irradiance_source_side = 128;
 
 /// Copies a level into the middle of one with a border. Across an edge of the square lies the texel
 /// that mirrors it at the middle of the edge.

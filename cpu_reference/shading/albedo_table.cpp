@@ -68,7 +68,8 @@ dvec4 entry(double roughness, double cosine, double sheen_cosine, int samples) {
       sheen += sheen_share(sheen_v, std::max(alpha, 0.04), u, w);
     }
   const double count = double(samples) * samples;
-  return {(ggx.x - ggx.y) / count, ggx.y / count, 0, sheen / count};
+  const double less = std::pow(ggx.y / ggx.x, 0.2);  // 1 less the cosine of the mean weight
+  return {ggx.x / count, std::max(1 - cosine - less, 0.0), 0, sheen / count};
 }
 
 double roughness_of(int row, int side) { return std::max(double(row) / (side - 1), 1.0 / 64); }

@@ -29,9 +29,10 @@ double sheen_albedo(double alpha, double cosine, int n);
 
 /// The table that shaders read, side x side: rows are roughness i / (side - 1), at least 1/64;
 /// column j holds the cosine c at which (c (1 + alpha) / (c + alpha))^(1/2) = j / (side - 1), at
-/// least alpha / 1000. x slope and y offset as above, z the root of 1 less the mean of x + y over
-/// the cosine-weighted hemisphere. w is the albedo of a white Charlie sheen of alpha at least 0.04, at the cosine
-/// (j / (side - 1))^2, at least 0.001.
+/// least alpha / 1000. x is slope and offset together, y how much more than c the cosine is at which
+/// Schlick's (1 - cosine)^5 is offset / x, at least 0; z the root of 1 less the mean of x over the
+/// cosine-weighted hemisphere. w is the albedo of a white Charlie sheen of alpha at least 0.04, at
+/// the cosine (j / (side - 1))^2, at least 0.001.
 ///
 /// @param samples  each entry is the mean over samples^2 midpoints, of the normals that the eye
 ///                 sees (GGX) and of the directions of light (sheen).

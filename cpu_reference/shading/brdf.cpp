@@ -138,7 +138,8 @@ dvec3 albedo_at(const Grid<vec4>& table, double cosine, double roughness) {
   const double c = std::clamp(cosine, 1e-6, 1.0);
   const dvec4 entry =
       between_nodes(table, std::sqrt((1 + alpha) / (1 + alpha / c)) * last, bounded * last);
-  return {entry.x, entry.y, 1 - entry.z * entry.z};
+  const double grazing = std::pow(1 - std::min(c + entry.y, 1.0), 5);
+  return {entry.x * (1 - grazing), entry.x * grazing, 1 - entry.z * entry.z};
 }
 
 double sheen_albedo_at(const Grid<vec4>& table, double cosine, double roughness) {

@@ -138,7 +138,8 @@ Triple<Real> tabulated_albedo(const Grid<vec4>& table, const Real& cosine, const
   const Real last{double(table.width() - 1)};
   const Real x = square_root(c * (Real(1.0) + alpha) / (c + alpha)) * last;
   const auto entry = between(table, x, y * last);
-  return {entry[0], entry[1], Real(1.0) - square(entry[2])};
+  const Real offset = entry[0] * fifth_power(clamped(Real(1.0) - (c + entry[1]), 0.0, 1.0));
+  return {entry[0] - offset, offset, Real(1.0) - square(entry[2])};
 }
 
 template <class Real>
@@ -155,16 +156,19 @@ Triple<Real> mirrored(const EnvironmentLight& light, const Triple<Real>& directi
                      clamped(roughness, 0.0, 1.0) * Real(double(light.mirrors.size() - 1)));
 }
 
-template <class Real>
-Triple<Real> irradiance_over_pi(const EnvironmentLight& light, const Triple<Real>& n) {
-  const auto term = [&](std::size_t i, const Real& basis) {
-    return triple<Real>(dvec3(light.irradiance[i])) * basis;
+template <>
+Triple<double> irradiance_over_pi(const EnvironmentLight& light, const Triple<double>& n) {
+  const dvec3 value = texel_between(light.irradiance, place({n.x, n.y, n.z}, light.irradiance));
+  return {value.x, value.y, value.z};
+}
+
+template <>
+Triple<Interval> irradiance_over_pi(const EnvironmentLight& light, const Triple<Interval>& n) {
+  const Spread s = toward(light.irradiance, n);
+  const auto channel = [&](int c) {
+    return Interval{s.value[c] - s.bound[c], s.value[c] + s.bound[c]};
   };
-  const Triple<Real> sum = term(0, Real(1.0)) + term(1, n.y) + term(2, n.z) + term(3, n.x) +
-                           term(4, n.x * n.y) + term(5, n.y * n.z) +
-                           term(6, Real(3.0) * square(n.z) - Real(1.0)) + term(7, n.x * n.z) +
-                           term(8, square(n.x) - square(n.y));
-  return {most(sum.x, Real(0.0)), most(sum.y, Real(0.0)), most(sum.z, Real(0.0))};
+  return {channel(0), channel(1), channel(2)};
 }
 
 template Triple<double> tabulated_albedo(const Grid<vec4>&, const double&, const double&);
@@ -174,7 +178,5 @@ template Interval tabulated_sheen(const Grid<vec4>&, const Interval&, const Inte
 template Triple<double> mirrored(const EnvironmentLight&, const Triple<double>&, const double&);
 template Triple<Interval> mirrored(const EnvironmentLight&, const Triple<Interval>&,
                                    const Interval&);
-template Triple<double> irradiance_over_pi(const EnvironmentLight&, const Triple<double>&);
-template Triple<Interval> irradiance_over_pi(const EnvironmentLight&, const Triple<Interval>&);
 
 }  // namespace parity::cpu

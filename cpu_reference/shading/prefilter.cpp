@@ -82,7 +82,13 @@ double solid_angle(const dvec3& d, int side) {
   return 4 * std::pow(std::abs(d.x) + std::abs(d.y) + std::abs(d.z), 3) / (double(side) * side);
 }
 
-std::array<vec3, 9> irradiance(const Grid<vec4>& level) {
+/// The harmonics of degree 0 to 2 without their factors.
+std::array<double, 9> basis_at(const dvec3& d) {
+  return {
+      1, d.y, d.z, d.x, d.x * d.y, d.y * d.z, 3 * d.z * d.z - 1, d.x * d.z, d.x * d.x - d.y * d.y};
+}
+
+std::array<vec3, 9> harmonics(const Grid<vec4>& level) {
   const int side = level.width();
   std::array<dvec3, 9> sums{};
   double sphere = 0;
@@ -92,15 +98,7 @@ std::array<vec3, 9> irradiance(const Grid<vec4>& level) {
       const double w = solid_angle(d, side);
       sphere += w;
       const dvec3 light = dvec3(level(x, y)) * w;
-      const double basis[9] = {1,
-                               d.y,
-                               d.z,
-                               d.x,
-                               d.x * d.y,
-                               d.y * d.z,
-                               3 * d.z * d.z - 1,
-                               d.x * d.z,
-                               d.x * d.x - d.y * d.y};
+      const std::array<double, 9> basis = basis_at(d);
       for (std::size_t k = 0; k < 9; ++k) sums[k] += light * basis[k];
     }
   // Squares of the harmonics' factors, times what the cosine lobe keeps: 1, 2/3, 1/4.
@@ -111,22 +109,70 @@ std::array<vec3, 9> irradiance(const Grid<vec4>& level) {
   return result;
 }
 
+/// A texel as a lamp: its direction times its solid angle, and its light.
+struct Lamp {
+  dvec3 weighed{0.0};
+  dvec3 light{0.0};
+};
+
+std::vector<Lamp> lamps_of(const Grid<vec4>& level) {
+  std::vector<Lamp> lamps;
+  for (int y = 0; y < level.height(); ++y)
+    for (int x = 0; x < level.width(); ++x) {
+      const dvec3 d = octahedral_direction((dvec2(x, y) + 0.5) / double(level.width()));
+      lamps.push_back({d * solid_angle(d, level.width()), dvec3(level(x, y))});
+    }
+  return lamps;
+}
+
+vec4 mean_over_hemisphere(const std::vector<Lamp>& lamps, const dvec3& n) {
+  dvec3 sum{0.0};
+  double weights = 0;
+  for (const Lamp& lamp : lamps) {
+    const double weight = std::max(glm::dot(lamp.weighed, n), 0.0);
+    sum += weight * lamp.light;
+    weights += weight;
+  }
+  return vec4(vec3(sum / weights), 1);
+}
+
 }  // namespace
 
 Grid<vec4> prefilter_mirror(const EnvironmentMap& map, double roughness, int side, int samples) {
   return mirror_of(bordered(map), roughness, side, samples);
 }
 
+Grid<vec4> prefilter_irradiance(const EnvironmentMap& map) {
+  std::size_t level = 0;
+  while (map.levels[level].width() > irradiance_source_side) ++level;
+  const std::vector<Lamp> lamps = lamps_of(map.levels[level]);
+  Grid<vec4> result{irradiance_side, irradiance_side};
+#pragma omp parallel for schedule(dynamic)
+  for (int y = 0; y < irradiance_side; ++y)
+    for (int x = 0; x < irradiance_side; ++x) {
+      const dvec2 middle = (dvec2(x, y) + 0.5) / double(irradiance_side);
+      result(x, y) = mean_over_hemisphere(lamps, octahedral_direction(middle));
+    }
+  return result;
+}
+
 std::array<vec3, 9> project_irradiance(const EnvironmentMap& map) {
   std::size_t small = 0;
   while (map.levels[small].width() > 64) ++small;
-  return irradiance(map.levels[small]);
+  return harmonics(map.levels[small]);
+}
+
+dvec3 irradiance_by_harmonics(const std::array<vec3, 9>& coefficients, const dvec3& normal) {
+  const std::array<double, 9> basis = basis_at(normal);
+  dvec3 sum{0.0};
+  for (std::size_t k = 0; k < 9; ++k) sum += dvec3(coefficients[k]) * basis[k];
+  return glm::max(sum, dvec3(0.0));
 }
 
 EnvironmentLight prefilter(const EnvironmentMap& map, int samples) {
   const std::vector<Grid<vec4>> levels = bordered(map);
   EnvironmentLight light;
-  light.irradiance = project_irradiance(map);
+  light.irradiance = with_border(prefilter_irradiance(map));
   for (std::size_t i = 0; i < mirror_sides.size(); ++i) {
     const double roughness = double(i) / double(mirror_sides.size() - 1);
     light.mirrors.push_back(with_border(mirror_of(levels, roughness, mirror_sides[i], samples)));

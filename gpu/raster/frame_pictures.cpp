@@ -12,9 +12,12 @@ Buffer<float> all_depths(Context& context, const LightShadow& shadow) {
   return Buffer<float>(context, depths);
 }
 
-SceneEnvironment describe(const EnvironmentLight& light, BufferRef<vec4> mirrors) {
+SceneEnvironment describe(const EnvironmentLight& light, BufferRef<vec4> mirrors,
+                          BufferRef<vec4> irradiance) {
   SceneEnvironment result{};
   result.mirrors = mirrors;
+  result.irradiance = irradiance;
+  result.irradiance_side = std::uint32_t(light.irradiance.width() - 2);
   result.level_count = std::uint32_t(light.mirrors.size());
   std::uint32_t begin = 0;
   for (std::size_t i = 0; i < light.mirrors.size(); ++i) {
@@ -22,7 +25,6 @@ SceneEnvironment describe(const EnvironmentLight& light, BufferRef<vec4> mirrors
     result.sides[i] = std::uint32_t(light.mirrors[i].width() - 2);
     begin += std::uint32_t(light.mirrors[i].size());
   }
-  std::copy(light.irradiance.begin(), light.irradiance.end(), result.irradiance);
   return result;
 }
 
@@ -37,8 +39,10 @@ std::vector<vec4> all_texels(const std::vector<Grid<vec4>>& levels) {
 FramePictures::FramePictures(Context& context, const Frame& frame) {
   if (frame.environment) {
     mirrors_ = Buffer<vec4>(context, all_texels(frame.environment->mirrors));
+    irradiance_ = Buffer<vec4>(context, frame.environment->irradiance.values());
     environment_ = Buffer<SceneEnvironment>(
-        context, std::vector<SceneEnvironment>{describe(*frame.environment, mirrors_)});
+        context,
+        std::vector<SceneEnvironment>{describe(*frame.environment, mirrors_, irradiance_)});
   }
   for (const LightShadow& shadow : frame.shadows)
     shadow_depths_.push_back(all_depths(context, shadow));

@@ -23,6 +23,7 @@ class FramePictures {
 
  private:
   Buffer<vec4> mirrors_;  ///< of the environment
+  Buffer<vec4> irradiance_;
   Buffer<SceneEnvironment> environment_;
   std::vector<Buffer<float>> shadow_depths_;
   Buffer<float> openness_;

@@ -7,9 +7,7 @@
 namespace parity::gpu {
 
 /// Directional albedos of rough surfaces, 16 x 16, as cpu::albedo_table: rows are roughness,
-/// columns a function of the cosine. White light from everywhere comes back as x F0 + y (GGX,
-/// single bounce, Schlick); z is the mean of x + y over the cosine-weighted hemisphere; w is the
-/// albedo of a white Charlie sheen.
+/// columns a function of the cosine; geometry/albedo_table.h says what the four numbers are.
 ///
 /// @param samples  1 to 128 a side of the grid of sample points of each entry.
 /// @throws std::invalid_argument  samples out of range.

@@ -14,7 +14,7 @@ namespace parity::gpu {
 namespace {
 
 /// Sixteen texels of a level are enough for polynomials of degree 2; this is four times as fine.
-constexpr int irradiance_side = 64;
+constexpr int harmonics_side = 64;
 
 struct Source {
   std::vector<vec4> texels;
@@ -31,9 +31,10 @@ Source bordered_levels(const EnvironmentMap& map) {
   return source;
 }
 
-std::size_t irradiance_level(const EnvironmentMap& map) {
+/// The finest level of at most that side.
+std::size_t level_of_side(const EnvironmentMap& map, int side) {
   std::size_t level = 0;
-  while (map.levels[level].width() > irradiance_side) ++level;
+  while (map.levels[level].width() > side) ++level;
   return level;
 }
 
@@ -68,14 +69,13 @@ Grid<vec4> mirror(Context& context, const Uploaded& map, double roughness, int s
   return result;
 }
 
-std::array<vec3, 9> irradiance(Context& context, const Uploaded& map,
-                               const EnvironmentMap& levels) {
-  const std::size_t level = irradiance_level(levels);
+std::array<vec3, 9> harmonics(Context& context, const Uploaded& map, const EnvironmentMap& levels) {
+  const std::size_t level = level_of_side(levels, harmonics_side);
   const auto side = std::uint32_t(levels.levels[level].width());
   const Buffer<vec4> rows(context, std::size_t(side) * 9), sums(context, 9);
-  const Kernel<IrradianceArgs> by_row(context, shaders::shading_irradiance_rows_comp);
-  const Kernel<IrradianceArgs> of_rows(context, shaders::shading_irradiance_sum_comp);
-  const IrradianceArgs args{map.texels.ref(map.source.begins[level]), rows, sums, side, 0};
+  const Kernel<HarmonicsArgs> by_row(context, shaders::shading_harmonics_rows_comp);
+  const Kernel<HarmonicsArgs> of_rows(context, shaders::shading_harmonics_sum_comp);
+  const HarmonicsArgs args{map.texels.ref(map.source.begins[level]), rows, sums, side, 0};
   context.run([&](Commands& commands) {
     commands.dispatch(by_row, {side}, args);
     commands.dispatch(of_rows, {9}, args);
@@ -83,6 +83,20 @@ std::array<vec3, 9> irradiance(Context& context, const Uploaded& map,
   std::array<vec3, 9> result;
   const std::vector<vec4> values = sums.read();
   for (std::size_t k = 0; k < 9; ++k) result[k] = vec3(values[k]);
+  return result;
+}
+
+Grid<vec4> irradiance(Context& context, const Uploaded& map, const EnvironmentMap& levels) {
+  const std::size_t level = level_of_side(levels, irradiance_source_side);
+  const Kernel<IrradianceArgs> kernel(context, shaders::shading_irradiance_comp);
+  Grid<vec4> result{irradiance_side, irradiance_side};
+  const Buffer<vec4> texels(context, result.size());
+  const IrradianceArgs args{.level = map.texels.ref(map.source.begins[level]),
+                            .irradiance = texels,
+                            .level_side = std::uint32_t(levels.levels[level].width()),
+                            .side = irradiance_side};
+  context.run([&](Commands& commands) { commands.dispatch(kernel, {args.side, args.side}, args); });
+  result.values() = texels.read();
   return result;
 }
 
@@ -107,7 +121,7 @@ EnvironmentLight prefilter(Context& context, const EnvironmentMap& map, int samp
   check(map, samples);
   const Uploaded uploaded(context, map);
   EnvironmentLight light;
-  light.irradiance = irradiance(context, uploaded, map);
+  light.irradiance = with_border(irradiance(context, uploaded, map));
   for (std::size_t i = 0; i < mirror_sides.size(); ++i) {
     const double roughness = double(i) / double(mirror_sides.size() - 1);
     light.mirrors.push_back(
@@ -116,9 +130,14 @@ EnvironmentLight prefilter(Context& context, const EnvironmentMap& map, int samp
   return light;
 }
 
-std::array<vec3, 9> project_irradiance(Context& context, const EnvironmentMap& map) {
+Grid<vec4> prefilter_irradiance(Context& context, const EnvironmentMap& map) {
   check(map, 1);
   return irradiance(context, Uploaded(context, map), map);
+}
+
+std::array<vec3, 9> project_irradiance(Context& context, const EnvironmentMap& map) {
+  check(map, 1);
+  return harmonics(context, Uploaded(context, map), map);
 }
 
 }  // namespace parity::gpu

@@ -17,7 +17,10 @@ EnvironmentLight prefilter(Context& context, const EnvironmentMap& map, int samp
 Grid<vec4> prefilter_mirror(Context& context, const EnvironmentMap& map, double roughness, int side,
                             int samples);
 
-/// EnvironmentLight::irradiance alone.
+/// EnvironmentLight::irradiance without its border.
+Grid<vec4> prefilter_irradiance(Context& context, const EnvironmentMap& map);
+
+/// Irradiance over pi as nine polynomials of the normal.
 std::array<vec3, 9> project_irradiance(Context& context, const EnvironmentMap& map);
 
 }  // namespace parity::gpu

@@ -139,12 +139,12 @@ REF_TYPE(SceneLayers, 4)
 
 // Light from all around: parity::EnvironmentLight.
 struct SceneEnvironment {
-  REF(vec4) mirrors;  // level after level, each with a border
+  REF(vec4) mirrors;     // level after level, each with a border
+  REF(vec4) irradiance;  // one level with its border
   uint level_count;
   uint begins[6];
   uint sides[6];  // without borders
-  vec3 irradiance[9];
-  uint padding;
+  uint irradiance_side;
 };
 REF_TYPE(SceneEnvironment, 8)
 

@@ -15,9 +15,8 @@ void main() {
   for (uint i = 0u; i < 256u; ++i) {
     const float x = albedo_column(sqrt((float(i) + 0.5) / 256.0), roughness * roughness);
     const uint column = min(uint(x), albedo_side - 2u);
-    const vec4 at = args.table.at[row * albedo_side + column];
-    const vec4 next = args.table.at[row * albedo_side + column + 1u];
-    sum += mix(at.x + at.y, next.x + next.y, x - float(column));
+    const uint at = row * albedo_side + column;
+    sum += mix(args.table.at[at].x, args.table.at[at + 1u].x, x - float(column));
   }
   const float root = sqrt(max(1.0 - sum / 256.0, 0.0));
   for (uint i = 0u; i < albedo_side; ++i) args.table.at[row * albedo_side + i].z = root;

@@ -71,5 +71,6 @@ void main() {
     sum += row_sum / float(args.samples);
   }
   sum /= float(args.samples);
-  args.table.at[entry] = vec4(sum.x - sum.y, sum.y, 0.0, sum.z);
+  const float mean_cosine = 1.0 - pow(sum.y / sum.x, 0.2);  // that of Schlick's mean weight
+  args.table.at[entry] = vec4(sum.x, max(mean_cosine - n_v, 0.0), 0.0, sum.z);
 }

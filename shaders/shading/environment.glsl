@@ -1,5 +1,4 @@
-// Light from all around, prefiltered. Source: Karis 2013 (split sum); Ramamoorthi & Hanrahan 2001
-// (spherical harmonics).
+// Light from all around, prefiltered. Source: Karis 2013 (split sum).
 #ifndef PARITY_SHADING_ENVIRONMENT_GLSL
 #define PARITY_SHADING_ENVIRONMENT_GLSL
 #include "raster/scene_layout.h"
@@ -19,12 +18,6 @@ vec3 mirrored(ref_SceneEnvironment environment, vec3 direction, float roughness)
 }
 
 vec3 irradiance_over_pi(ref_SceneEnvironment e, vec3 n) {
-  const vec3 sum = e.at[0].irradiance[0] + e.at[0].irradiance[1] * n.y + e.at[0].irradiance[2] * n.z +
-                   e.at[0].irradiance[3] * n.x + e.at[0].irradiance[4] * (n.x * n.y) +
-                   e.at[0].irradiance[5] * (n.y * n.z) +
-                   e.at[0].irradiance[6] * (3.0 * n.z * n.z - 1.0) +
-                   e.at[0].irradiance[7] * (n.x * n.z) +
-                   e.at[0].irradiance[8] * (n.x * n.x - n.y * n.y);
-  return max(sum, vec3(0.0));
+  return octahedral_texel(e.at[0].irradiance, 0u, e.at[0].irradiance_side, octahedral_uv(n));
 }
 #endif

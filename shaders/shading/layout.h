@@ -135,12 +135,19 @@ struct MirrorArgs {
   uint padding;
 };
 
-struct IrradianceArgs {
+struct HarmonicsArgs {
   REF(vec4) level;  ///< one level with its border
   REF(vec4) rows;   ///< 9 sums a row; w of the first the solid angle
   REF(vec4) coefficients;
   uint side;
   uint padding;
+};
+
+struct IrradianceArgs {
+  REF(vec4) level;       ///< one level with its border
+  REF(vec4) irradiance;  ///< over pi; side^2, no border
+  uint level_side;
+  uint side;
 };
 
 /// Distances from the eye at which four cascades of shadow maps end, and the maps, one after another.

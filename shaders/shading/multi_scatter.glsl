@@ -2,6 +2,7 @@
 // Source: Kulla & Conty 2017; checklist row 108.
 #ifndef PARITY_SHADING_MULTI_SCATTER_GLSL
 #define PARITY_SHADING_MULTI_SCATTER_GLSL
+#include "shading/fresnel.glsl"
 #include "shading/layout.h"
 
 // Cosine of column i of the table for a width alpha, and the column of a cosine. Albedos depend on
@@ -29,9 +30,10 @@ vec4 albedo_between(ref_vec4 table, float x, float row) {
 // comes back is x F0 + y; z is the mean of x + y over the cosine-weighted hemisphere.
 vec3 albedo_at(ref_vec4 table, float cosine, float roughness) {
   const float y = clamp(roughness, 1.0 / 64.0, 1.0);
-  const float x = albedo_column(clamp(cosine, 1e-6, 1.0), y * y);
-  const vec4 at = albedo_between(table, x, y * float(albedo_side - 1u));
-  return vec3(at.xy, 1.0 - at.z * at.z);
+  const float c = clamp(cosine, 1e-6, 1.0);
+  const vec4 at = albedo_between(table, albedo_column(c, y * y), y * float(albedo_side - 1u));
+  const float rising = at.x * schlick_weight(c + at.y);
+  return vec3(at.x - rising, rising, 1.0 - at.z * at.z);
 }
 
 // The part of white light from everywhere that a white sheen sends back; columns are the square root
