@@ -191,7 +191,7 @@ TEST(CpuShading, ReadsRoughnessFromGreenAndMetallicFromBlue) {
   const double metallic = 0.5 * 51 / 255.0, alpha = std::pow(128 / 255.0, 2);
   for (int c = 0; c < 3; ++c) {
     const double base = double(m.base_color[c]), f0 = 0.04 * (1 - metallic) + base * metallic;
-    const double once = (1 - f0) * base * (1 - metallic) / pi + f0 / (4 * pi * alpha * alpha);
+    const double once = 0.96 * base * (1 - metallic) / pi + f0 / (4 * pi * alpha * alpha);
     // What several bounces add, of the metal: Kulla & Conty's lobe, straight on.
     const dvec3 albedo = cpu::albedo_at(albedo_table(), 1, 128 / 255.0);
     const double lost = 1 - albedo.x - albedo.y, f = (1 + 20 * f0) / 21;

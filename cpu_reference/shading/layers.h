@@ -24,6 +24,7 @@ struct Surface {
   Triple<Real> diffuse;  ///< albedo
   Triple<Real> f0;
   Real f90{1.0};
+  Real body_f0{}, body_f90{};  ///< of the border over the diffuse part, in its largest channel
   Real roughness{};
   Real alpha_squared{};  ///< roughness^4
   bool bounces = false;  ///< light that leaves after several bounces counts, as far as it is metal
@@ -114,7 +115,8 @@ Triple<Real> reflected(const Surface<Real>& s, const Triple<Real>& to_light, con
                                 : isotropic_lobe(s.alpha_squared, n_dot_h, n_dot_l, s.n_dot_v);
   const Real fresnel = fifth_power(clamped(Real(1.0) - v_dot_h, 0, 1));
   const Triple<Real> f = s.f0 + (all(s.f90) - s.f0) * fresnel;
-  Triple<Real> diffuse = (all(Real(1.0)) - f) * s.diffuse * rounded<Real>(std::numbers::inv_pi);
+  const Real entering = Real(1.0) - (s.body_f0 + (s.body_f90 - s.body_f0) * fresnel);
+  Triple<Real> diffuse = s.diffuse * (entering * rounded<Real>(std::numbers::inv_pi));
   if (s.transmits) diffuse = diffuse * (Real(1.0) - s.transmission);
   Triple<Real> sum = diffuse + f * lobe;
   if (s.bounces) sum = sum + bounced_lobe(s, n_dot_l) * s.metallic;
@@ -155,18 +157,26 @@ Triple<Real> mean_radiance(const Surroundings& around, const Triple<Real>& norma
   return around.light ? irradiance_over_pi(*around.light, normal) : triple<Real>(around.uniform);
 }
 
+/// Where most of the light of a rough mirror comes from, of any length: the mirror's way, which
+/// gives way to the normal as roughness grows.
+/// Source: Lagarde & de Rousiers 2014, "Moving Frostbite to PBR", 4.9.3.
 template <class Real>
-Triple<Real> reflection(const Triple<Real>& to_eye, const Triple<Real>& normal) {
-  return normal * (Real(2.0) * dot(normal, to_eye)) - to_eye;
+Triple<Real> reflection(const Triple<Real>& to_eye, const Triple<Real>& normal,
+                        const Real& roughness) {
+  const Triple<Real> mirror = normal * (Real(2.0) * dot(normal, to_eye)) - to_eye;
+  const Real smooth = most(Real(1.0) - square(roughness), Real(0.0));
+  const Real part = smooth * (square_root(smooth) + square(roughness));
+  return normal * (Real(1.0) - part) + mirror * part;
 }
 
 /// Where the stretched lobe looks: the normal leans toward the eye across the tangent.
 /// Source: KHR_materials_anisotropy, "Implementation", image-based lighting.
 template <class Real>
 Triple<Real> mirror_direction(const Surface<Real>& s) {
-  if (!s.stretched) return reflection(s.to_eye, s.normal);
+  if (!s.stretched) return reflection(s.to_eye, s.normal, s.roughness);
   const Triple<Real> leaning = cross(cross(s.across, s.to_eye), s.across);
-  return reflection(s.to_eye, normalized(leaning * (Real(1.0) - s.bend) + s.normal * s.bend));
+  return reflection(s.to_eye, normalized(leaning * (Real(1.0) - s.bend) + s.normal * s.bend),
+                    s.roughness);
 }
 
 /// The way of the eye's ray within a surface that light passes: refracted unless it is thin.
@@ -219,18 +229,19 @@ Surrounded<Real> surrounded(const Surface<Real>& s, const Surroundings& around, 
   const Triple<Real> mean = mean_radiance(around, s.normal) * Real(openness);
   const Real total = s.albedo.x + s.albedo.y;
   const Real lost = Real(1.0) - total;
-  const auto several = [&](const Real& single, const Real& f0) {
-    const Real f = f0 + (s.f90 - f0) * rounded<Real>(1.0 / 21);
+  const auto several = [&](const Real& single, const Real& f0, const Real& f90) {
+    const Real f = f0 + (f90 - f0) * rounded<Real>(1.0 / 21);
     return single * f / (Real(1.0) - lost * f) * lost;
   };
   const Triple<Real> single = s.f0 * s.albedo.x + all(s.f90 * s.albedo.y);
-  const Triple<Real> more{several(single.x, s.f0.x), several(single.y, s.f0.y),
-                          several(single.z, s.f0.z)};
-  const Triple<Real> entering = all(Real(1.0)) - single - more;
+  const Triple<Real> more{several(single.x, s.f0.x, s.f90), several(single.y, s.f0.y, s.f90),
+                          several(single.z, s.f0.z, s.f90)};
+  const Real border = s.body_f0 * s.albedo.x + s.body_f90 * s.albedo.y;
+  const Real entering = Real(1.0) - border - several(border, s.body_f0, s.body_f90);
   Surrounded<Real> result{{}, Real(0.0)};
-  Triple<Real> body = s.diffuse * entering * mean;
+  Triple<Real> body = s.diffuse * mean * entering;
   if (s.transmits) {
-    const Triple<Real> passing = s.tint * entering * s.transmission;
+    const Triple<Real> passing = s.tint * (entering * s.transmission);
     const Surrounded<Real> through = passed(s, around, passing);
     result.open = through.open;
     body = body * (Real(1.0) - s.transmission) + through.radiance;
@@ -243,8 +254,8 @@ Surrounded<Real> surrounded(const Surface<Real>& s, const Surroundings& around, 
   }
   if (s.coated) {
     const Triple<Real> albedo = tabulated_albedo(albedo_table(), s.coat_n_dot_v, s.coat_roughness);
-    const Triple<Real> coat =
-        mirror_radiance(around, reflection(s.to_eye, s.coat_normal), s.coat_roughness);
+    const Triple<Real> coat = mirror_radiance(
+        around, reflection(s.to_eye, s.coat_normal, s.coat_roughness), s.coat_roughness);
     const Real keep = Real(1.0) - s.coat_weight;
     result.radiance = result.radiance * keep + coat * (s.coat_weight * (albedo.x + albedo.y));
     result.open = result.open * keep;

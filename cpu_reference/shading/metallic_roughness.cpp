@@ -49,7 +49,28 @@ Real facing(const Triple<Real>& normal, const Triple<Real>& to_eye) {
   return clamped(magnitude(dot(normal, to_eye)), least_n_dot_v, 1.0);
 }
 
-/// Diffuse albedo and reflectances. Source: glTF 2.0, B.2; KHR_materials_specular, _ior.
+/// F0 under a film: Schlick's curve from there goes through what the film reflects toward the eye.
+/// Once a point, not once a light. Source: KHR_materials_iridescence.
+template <class Real>
+Triple<Real> filmed(const Material& m, const ShadingPoint<Real>& p, const Real& n_dot_v,
+                    const Triple<Real>& f0, const Real& f90) {
+  if (!(m.iridescence.factor > 0)) return f0;
+  const double least = m.iridescence.thickness_minimum, most = m.iridescence.thickness_maximum;
+  const Real thickness =
+      Real(least) + rounded<Real>(most - least) * p.inputs[input::film_thickness_texture];
+  const Triple<Real> film = thin_film(double(m.iridescence.ior), thickness, n_dot_v, f0);
+  const Real grazing = fifth_power(Real(1.0) - n_dot_v);
+  const Real part = Real(double(m.iridescence.factor)) * p.inputs[input::iridescence_texture];
+  const auto channel = [&](const Real& seen, const Real& bare) {
+    const Real straight = clamped((seen - f90 * grazing) / (Real(1.0) - grazing), 0, 1);
+    return bare + (straight - bare) * part;
+  };
+  return {channel(film.x, f0.x), channel(film.y, f0.y), channel(film.z, f0.z)};
+}
+
+/// Diffuse albedo and reflectances: a dielectric and a metal, mixed. What is under the border of
+/// the dielectric keeps its colour: it gets what the strongest channel leaves.
+/// Source: glTF 2.0, B.2; KHR_materials_specular, _ior.
 template <class Real>
 void add_base(const Material& m, const ShadingPoint<Real>& p, const Triple<Real>& base,
               Surface<Real>& s) {
@@ -64,27 +85,18 @@ void add_base(const Material& m, const ShadingPoint<Real>& p, const Triple<Real>
     return least(rounded<Real>(border) * tint, Real(1.0)) * weight;
   };
   s.diffuse = base * body;
-  s.f0 = Triple<Real>{dielectric(tinted.x), dielectric(tinted.y), dielectric(tinted.z)} * body +
-         base * metallic;
+  const Triple<Real> plastic = filmed(
+      m, p, s.n_dot_v, {dielectric(tinted.x), dielectric(tinted.y), dielectric(tinted.z)}, weight);
+  s.body_f0 = largest(plastic);
+  s.body_f90 = weight;
+  s.f0 = plastic * body;
+  if (m.metallic > 0) s.f0 = s.f0 + filmed(m, p, s.n_dot_v, base, Real(1.0)) * metallic;
   s.f90 = weight * body + metallic;
   s.roughness =
       clamped(Real(double(m.roughness)) * p.inputs[input::roughness_texture], least_roughness, 1.0);
   s.alpha_squared = square(square(s.roughness));
   s.bounces = m.metallic > 0;
   s.metallic = metallic;
-}
-
-/// A film changes F0, as seen from where the eye is: once a point, not once a light.
-/// Source: KHR_materials_iridescence.
-template <class Real>
-void add_film(const Material& m, const ShadingPoint<Real>& p, Surface<Real>& s) {
-  if (!(m.iridescence.factor > 0)) return;
-  const double least = m.iridescence.thickness_minimum, most = m.iridescence.thickness_maximum;
-  const Real thickness =
-      Real(least) + rounded<Real>(most - least) * p.inputs[input::film_thickness_texture];
-  const Triple<Real> film = thin_film(double(m.iridescence.ior), thickness, s.n_dot_v, s.f0);
-  const Real part = Real(double(m.iridescence.factor)) * p.inputs[input::iridescence_texture];
-  s.f0 = s.f0 + (film - s.f0) * part;
 }
 
 /// Source: KHR_materials_anisotropy.
@@ -170,7 +182,6 @@ Surface<Real> surface_at(const Material& m, const ShadingScene& scene, const Sha
   s.n_dot_v = facing(s.normal, s.to_eye);
   s.position = inputs_at(p, input::position) - triple<Real>(scene.eye);
   add_base(m, p, base, s);
-  add_film(m, p, s);
   s.albedo = tabulated_albedo(albedo_table(), s.n_dot_v, s.roughness);
   add_anisotropy(m, p, frame, s);
   add_coat(m, p, frame, s);

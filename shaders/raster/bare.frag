@@ -18,6 +18,7 @@ void main() {
   m.diffuse = material.base_color;
   m.reflectance = vec3(0.04);
   m.grazing = 1.0;
+  m.border = vec2(0.04, 1.0);
   m.roughness = clamp(args.roughness, 0.045, 1.0);
   m.bounces = 0.0;
   m.albedo = albedo_at(args.albedo_table, view_cosine(n, v), m.roughness);

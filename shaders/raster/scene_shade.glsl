@@ -137,30 +137,35 @@ vec3 mapped_normal(TangentFrame frame, vec3 texel, float scale) {
   return unit_or_zero(bent_normal(frame.normal, frame.tangent, frame.handedness, texel, scale));
 }
 
-// What is common to all materials. The reflectances of its dielectric at normal incidence and at
-// grazing angles are 0.04 and 1 but for extensions.
+// What is common to all materials: a dielectric and a metal, mixed. The reflectances of the dielectric
+// at normal incidence and at grazing angles are 0.04 and 1 but for extensions.
 Microsurface base_surface(SceneMaterial material, Texels texels, vec3 base, vec3 dielectric,
-                          float dielectric_grazing) {
+                          float dielectric_grazing, vec3 metal) {
   const float metallic = has_metal ? material.metallic * texels.metallic_roughness.b : 0.0;
   Microsurface m;
   m.diffuse = base * (1.0 - metallic);
-  m.reflectance = dielectric * (1.0 - metallic) + base * metallic;
+  m.reflectance = dielectric * (1.0 - metallic) + metal * metallic;
   m.grazing = dielectric_grazing * (1.0 - metallic) + metallic;
+  m.border = vec2(max_component(dielectric), dielectric_grazing);
   m.roughness = clamp(material.roughness * texels.metallic_roughness.g, 0.045, 1.0);
   m.bounces = metallic;
   m.albedo = vec3(0.0);
   return m;
 }
 
-Layers layers_of(SceneArgs args, SceneLayers from, uint flags, inout Microsurface m,
+// What a film makes of F0: that of Schlick's curve which meets what the film reflects toward the eye.
+vec3 under_film(SceneLayers from, Texels texels, float cosine, vec3 f0, float f90) {
+  const float thickness =
+      from.film_thickness.x + (from.film_thickness.y - from.film_thickness.x) * texels.film.y;
+  const float rise = schlick_weight(cosine);
+  const vec3 film = thin_film(from.film_index, thickness, cosine, f0);
+  const vec3 straight = clamp((film - f90 * rise) / (1.0 - rise), 0.0, 1.0);
+  return f0 + (straight - f0) * (from.iridescence * texels.film.x);
+}
+
+Layers layers_of(SceneArgs args, SceneLayers from, uint flags, Microsurface m,
                  TangentFrame frame, vec3 n, vec3 v, Texels texels, float scale) {
   Layers y;
-  if (from.iridescence > 0.0) {
-    const float thickness =
-        from.film_thickness.x + (from.film_thickness.y - from.film_thickness.x) * texels.film.y;
-    const vec3 film = thin_film(from.film_index, thickness, view_cosine(n, v), m.reflectance);
-    m.reflectance += (film - m.reflectance) * (from.iridescence * texels.film.x);
-  }
   y.stretched = from.anisotropy > 0.0;
   const vec2 d = 2.0 * texels.anisotropy.xy - 1.0;
   const vec2 turn = from.anisotropy_direction;
@@ -199,7 +204,13 @@ vec3 mean_radiance(SceneArgs args, vec3 normal) {
   return has_environment ? irradiance_over_pi(args.environment, normal) : args.ambient;
 }
 
-vec3 mirror_of(vec3 v, vec3 n) { return n * (2.0 * dot(n, v)) - v; }
+// Where most of the light of a rough mirror comes from, of any length: from smooth to rough the way of
+// the mirror turns to the normal. Source: Lagarde & de Rousiers 2014, "Moving Frostbite to PBR", 4.9.3.
+vec3 mirror_of(vec3 v, vec3 n, float roughness) {
+  const float alpha = roughness * roughness;
+  const float part = (1.0 - alpha) * (sqrt(1.0 - alpha) + alpha);
+  return n * (1.0 + part * (2.0 * dot(n, v) - 1.0)) - v * part;
+}
 
 // The way of the eye's ray within a surface that light passes.
 vec3 way_behind(Layers y, vec3 n, vec3 v) {
@@ -238,7 +249,7 @@ vec4 surrounded(SceneArgs args, Microsurface m, Layers y, vec3 n, vec3 v, vec3 p
     if (y.see_through) open = clamp(min_component(passing), 0.0, 1.0 - 1.0 / 256.0);
     body = body * (1.0 - y.transmission) + behind(args, m, y, n, v, p, passing, open);
   }
-  vec3 sum = s.mirror * mirror_radiance(args, mirror_of(v, lean), m.roughness) + s.bounced * mean + body;
+  vec3 sum = s.mirror * mirror_radiance(args, mirror_of(v, lean, m.roughness), m.roughness) + s.bounced * mean + body;
   if (has_layers && max_component(y.sheen) > 0.0) {
     const float keep = max(1.0 - max_component(y.sheen) * y.sheen_albedo, 0.0);
     sum = sum * keep + y.sheen * y.sheen_albedo * mean;
@@ -247,7 +258,7 @@ vec4 surrounded(SceneArgs args, Microsurface m, Layers y, vec3 n, vec3 v, vec3 p
   if (has_layers && y.coat_weight > 0.0) {
     const vec3 albedo = albedo_at(args.albedo_table, y.coat_n_v, y.coat_roughness);
     sum = sum * (1.0 - y.coat_weight) +
-          mirror_radiance(args, mirror_of(v, y.coat_normal), y.coat_roughness) *
+          mirror_radiance(args, mirror_of(v, y.coat_normal, y.coat_roughness), y.coat_roughness) *
               (y.coat_weight * (albedo.x + albedo.y));
     open *= 1.0 - y.coat_weight;
   }
@@ -274,11 +285,16 @@ vec4 lit_radiance(SceneArgs args, SceneMaterial material, uint index, Fragment f
   if (has_layers) {
     SceneLayers layers = args.layers.at[index];
     const float weight = layers.specular * texels.specular.a;
-    m = base_surface(material, texels, base,
-                     min(layers.specular_color * texels.specular.rgb, vec3(1.0)) * weight, weight);
+    vec3 dielectric = min(layers.specular_color * texels.specular.rgb, vec3(1.0)) * weight;
+    vec3 metal = base;
+    if (layers.iridescence > 0.0) {
+      dielectric = under_film(layers, texels, view_cosine(n, v), dielectric, weight);
+      if (has_metal) metal = under_film(layers, texels, view_cosine(n, v), metal, 1.0);
+    }
+    m = base_surface(material, texels, base, dielectric, weight, metal);
     y = layers_of(args, layers, material.flags, m, frame, n, v, texels, f.scale);
   } else {
-    m = base_surface(material, texels, base, vec3(0.04), 1.0);
+    m = base_surface(material, texels, base, vec3(0.04), 1.0, base);
   }
   m.albedo = albedo_at(args.albedo_table, view_cosine(n, v), m.roughness);
   const float occlusion = 1.0 + material.occlusion_strength * (texels.occlusion - 1.0);

@@ -12,6 +12,7 @@ struct Microsurface {
   vec3 diffuse;      // albedo of the diffuse part, c_diff
   vec3 reflectance;  // at normal incidence, F0
   float grazing;     // at grazing angles, F90
+  vec2 border;       // F0 and F90 over the diffuse part: of a dielectric, its largest channel
   float roughness;   // perceptual, at least 0.045
   vec3 albedo;       // of the table, toward the eye
   float bounces;     // how much several bounces of punctual light count: that of metal
@@ -34,8 +35,10 @@ float microfacet_lobe(vec3 n, vec3 h, float n_l, float n_v, float roughness) {
 
 // BRDF of the base, 1/sr, from D V and the cosine between the eye and the half vector.
 vec3 base_reflection(Microsurface m, float lobe, float v_h, float n_l, ref_vec4 albedo_table) {
-  const vec3 f = m.reflectance + (m.grazing - m.reflectance) * schlick_weight(v_h);
-  vec3 sum = (1.0 - f) * m.diffuse * (1.0 / pi) + f * lobe;
+  const float weight = schlick_weight(v_h);
+  const vec3 f = m.reflectance + (m.grazing - m.reflectance) * weight;
+  const float passed = 1.0 - (m.border.x + (m.border.y - m.border.x) * weight);
+  vec3 sum = m.diffuse * (passed * (1.0 / pi)) + f * lobe;
   if (has_metal && m.bounces > 0.0)
     sum += m.bounces *
            multi_scatter(albedo_at(albedo_table, n_l, m.roughness), m.albedo, m.reflectance, m.grazing);
@@ -56,7 +59,7 @@ vec3 reflect_light(Microsurface m, vec3 n, vec3 v, vec3 l, ref_vec4 albedo_table
 struct EnvironmentShares {
   vec3 mirror;
   vec3 bounced;
-  vec3 entering;
+  float entering;
 };
 
 EnvironmentShares environment_shares(Microsurface m) {
@@ -65,7 +68,9 @@ EnvironmentShares environment_shares(Microsurface m) {
   const vec3 mean = mean_schlick(m.reflectance, m.grazing);
   s.mirror = m.reflectance * m.albedo.x + m.grazing * m.albedo.y;
   s.bounced = s.mirror * mean / (1.0 - lost * mean) * lost;
-  s.entering = 1.0 - s.mirror - s.bounced;
+  const float border = m.border.x * m.albedo.x + m.border.y * m.albedo.y;
+  const float border_mean = m.border.x + (m.border.y - m.border.x) * (1.0 / 21.0);
+  s.entering = 1.0 - border - border * border_mean / (1.0 - lost * border_mean) * lost;
   return s;
 }
 #endif
