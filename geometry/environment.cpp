@@ -113,6 +113,28 @@ EnvironmentMap environment_map(const Grid<vec4>& picture, int side) {
   return map;
 }
 
+bool harmonics_suffice(const std::array<vec3, 9>& harmonics, const Grid<vec4>& irradiance) {
+  dvec3 mean{0.0}, worst{0.0};
+  for (int y = 0; y < irradiance.height(); ++y)
+    for (int x = 0; x < irradiance.width(); ++x) {
+      const dvec3 n = octahedral_direction((dvec2(x, y) + 0.5) / double(irradiance.width()));
+      const double basis[9] = {1,
+                               n.y,
+                               n.z,
+                               n.x,
+                               n.x * n.y,
+                               n.y * n.z,
+                               3 * n.z * n.z - 1,
+                               n.x * n.z,
+                               n.x * n.x - n.y * n.y};
+      dvec3 apart{-dvec3(irradiance(x, y))};
+      for (std::size_t k = 0; k < 9; ++k) apart += dvec3(harmonics[k]) * basis[k];
+      worst = glm::max(worst, glm::abs(apart));
+      mean += dvec3(irradiance(x, y)) / double(irradiance.size());
+    }
+  return glm::all(glm::lessThanEqual(worst, 0.01 * mean));
+}
+
 Grid<vec4> with_border(const Grid<vec4>& level) {
   const int side = level.width();
   Grid<vec4> result{side + 2, side + 2};

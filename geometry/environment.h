@@ -33,8 +33,10 @@ struct EnvironmentLight {
   /// What a mirror of roughness i / (size - 1) shows where it is looked at straight: octahedral,
   /// with a border of one texel that repeats what is across the edge.
   std::vector<Grid<vec4>> mirrors;
-  /// Irradiance over pi of a surface by its normal, likewise.
+  /// Irradiance over pi of a surface by its normal, likewise. Empty: the harmonics are enough.
   Grid<vec4> irradiance;
+  /// The same as coefficients of 1, y, z, x, x y, y z, 3 z^2 - 1, x z, x^2 - y^2 of a unit normal.
+  std::array<vec3, 9> harmonics{};
 };
 
 /// Sides of the levels of EnvironmentLight::mirrors without their borders.
@@ -44,6 +46,10 @@ constexpr std::array<int, 6> mirror_sides{256, 128, 64, 32, 32, 32};
 /// has whose texels it sums.
 constexpr int irradiance_side = 64;
 constexpr int irradiance_source_side = 128;
+
+/// Are harmonics nowhere further from the irradiance of a map without border than a hundredth of
+/// its mean? Then no picture needs the map. Light of which a part comes from lamps needs it.
+bool harmonics_suffice(const std::array<vec3, 9>& harmonics, const Grid<vec4>& irradiance);
 
 /// Copies a level into the middle of one with a border. Across an edge of the square lies the texel
 /// that mirrors it at the middle of the edge.

@@ -128,6 +128,19 @@ Triple<Interval> mirrored_at(const EnvironmentLight& light, const Triple<Interva
   return {{low.x, high.x}, {low.y, high.y}, {low.z, high.z}};
 }
 
+Triple<double> irradiance_at(const Grid<vec4>& map, const Triple<double>& n) {
+  const dvec3 value = texel_between(map, place({n.x, n.y, n.z}, map));
+  return {value.x, value.y, value.z};
+}
+
+Triple<Interval> irradiance_at(const Grid<vec4>& map, const Triple<Interval>& n) {
+  const Spread s = toward(map, n);
+  const auto channel = [&](int c) {
+    return Interval{s.value[c] - s.bound[c], s.value[c] + s.bound[c]};
+  };
+  return {channel(0), channel(1), channel(2)};
+}
+
 }  // namespace
 
 template <class Real>
@@ -156,19 +169,17 @@ Triple<Real> mirrored(const EnvironmentLight& light, const Triple<Real>& directi
                      clamped(roughness, 0.0, 1.0) * Real(double(light.mirrors.size() - 1)));
 }
 
-template <>
-Triple<double> irradiance_over_pi(const EnvironmentLight& light, const Triple<double>& n) {
-  const dvec3 value = texel_between(light.irradiance, place({n.x, n.y, n.z}, light.irradiance));
-  return {value.x, value.y, value.z};
-}
-
-template <>
-Triple<Interval> irradiance_over_pi(const EnvironmentLight& light, const Triple<Interval>& n) {
-  const Spread s = toward(light.irradiance, n);
-  const auto channel = [&](int c) {
-    return Interval{s.value[c] - s.bound[c], s.value[c] + s.bound[c]};
+template <class Real>
+Triple<Real> irradiance_over_pi(const EnvironmentLight& light, const Triple<Real>& n) {
+  if (!light.irradiance.empty()) return irradiance_at(light.irradiance, n);
+  const auto term = [&](std::size_t i, const Real& basis) {
+    return triple<Real>(dvec3(light.harmonics[i])) * basis;
   };
-  return {channel(0), channel(1), channel(2)};
+  const Triple<Real> sum = term(0, Real(1.0)) + term(1, n.y) + term(2, n.z) + term(3, n.x) +
+                           term(4, n.x * n.y) + term(5, n.y * n.z) +
+                           term(6, Real(3.0) * square(n.z) - Real(1.0)) + term(7, n.x * n.z) +
+                           term(8, square(n.x) - square(n.y));
+  return {most(sum.x, Real(0.0)), most(sum.y, Real(0.0)), most(sum.z, Real(0.0))};
 }
 
 template Triple<double> tabulated_albedo(const Grid<vec4>&, const double&, const double&);
@@ -178,5 +189,7 @@ template Interval tabulated_sheen(const Grid<vec4>&, const Interval&, const Inte
 template Triple<double> mirrored(const EnvironmentLight&, const Triple<double>&, const double&);
 template Triple<Interval> mirrored(const EnvironmentLight&, const Triple<Interval>&,
                                    const Interval&);
+template Triple<double> irradiance_over_pi(const EnvironmentLight&, const Triple<double>&);
+template Triple<Interval> irradiance_over_pi(const EnvironmentLight&, const Triple<Interval>&);
 
 }  // namespace parity::cpu

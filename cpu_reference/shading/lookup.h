@@ -24,7 +24,7 @@ template <class Real>
 Triple<Real> mirrored(const EnvironmentLight& light, const Triple<Real>& direction,
                       const Real& roughness);
 
-/// Irradiance over pi on a surface with that normal, of any length.
+/// Irradiance over pi on a surface with that unit normal; not below 0.
 template <class Real>
 Triple<Real> irradiance_over_pi(const EnvironmentLight& light, const Triple<Real>& normal);
 

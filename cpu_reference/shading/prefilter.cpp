@@ -162,17 +162,12 @@ std::array<vec3, 9> project_irradiance(const EnvironmentMap& map) {
   return harmonics(map.levels[small]);
 }
 
-dvec3 irradiance_by_harmonics(const std::array<vec3, 9>& coefficients, const dvec3& normal) {
-  const std::array<double, 9> basis = basis_at(normal);
-  dvec3 sum{0.0};
-  for (std::size_t k = 0; k < 9; ++k) sum += dvec3(coefficients[k]) * basis[k];
-  return glm::max(sum, dvec3(0.0));
-}
-
 EnvironmentLight prefilter(const EnvironmentMap& map, int samples) {
   const std::vector<Grid<vec4>> levels = bordered(map);
   EnvironmentLight light;
-  light.irradiance = with_border(prefilter_irradiance(map));
+  light.harmonics = project_irradiance(map);
+  const Grid<vec4> irradiance = prefilter_irradiance(map);
+  if (!harmonics_suffice(light.harmonics, irradiance)) light.irradiance = with_border(irradiance);
   for (std::size_t i = 0; i < mirror_sides.size(); ++i) {
     const double roughness = double(i) / double(mirror_sides.size() - 1);
     light.mirrors.push_back(with_border(mirror_of(levels, roughness, mirror_sides[i], samples)));

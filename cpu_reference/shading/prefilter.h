@@ -33,9 +33,6 @@ Grid<vec4> prefilter_irradiance(const EnvironmentMap& map);
 /// Source: Ramamoorthi & Hanrahan 2001.
 std::array<vec3, 9> project_irradiance(const EnvironmentMap& map);
 
-/// Irradiance over pi from them, for a unit normal; not below 0.
-dvec3 irradiance_by_harmonics(const std::array<vec3, 9>& coefficients, const dvec3& normal);
-
 /// A mirror toward one direction, by the sum over all texels of a level.
 dvec3 mirror_by_quadrature(const Grid<vec4>& level, double roughness, const dvec3& normal);
 

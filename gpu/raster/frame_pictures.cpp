@@ -17,7 +17,9 @@ SceneEnvironment describe(const EnvironmentLight& light, BufferRef<vec4> mirrors
   SceneEnvironment result{};
   result.mirrors = mirrors;
   result.irradiance = irradiance;
-  result.irradiance_side = std::uint32_t(light.irradiance.width() - 2);
+  if (!light.irradiance.empty())
+    result.irradiance_side = std::uint32_t(light.irradiance.width() - 2);
+  std::copy(light.harmonics.begin(), light.harmonics.end(), result.harmonics);
   result.level_count = std::uint32_t(light.mirrors.size());
   std::uint32_t begin = 0;
   for (std::size_t i = 0; i < light.mirrors.size(); ++i) {
@@ -39,7 +41,8 @@ std::vector<vec4> all_texels(const std::vector<Grid<vec4>>& levels) {
 FramePictures::FramePictures(Context& context, const Frame& frame) {
   if (frame.environment) {
     mirrors_ = Buffer<vec4>(context, all_texels(frame.environment->mirrors));
-    irradiance_ = Buffer<vec4>(context, frame.environment->irradiance.values());
+    if (!frame.environment->irradiance.empty())
+      irradiance_ = Buffer<vec4>(context, frame.environment->irradiance.values());
     environment_ = Buffer<SceneEnvironment>(
         context,
         std::vector<SceneEnvironment>{describe(*frame.environment, mirrors_, irradiance_)});

@@ -121,7 +121,9 @@ EnvironmentLight prefilter(Context& context, const EnvironmentMap& map, int samp
   check(map, samples);
   const Uploaded uploaded(context, map);
   EnvironmentLight light;
-  light.irradiance = with_border(irradiance(context, uploaded, map));
+  light.harmonics = harmonics(context, uploaded, map);
+  const Grid<vec4> by_normal = irradiance(context, uploaded, map);
+  if (!harmonics_suffice(light.harmonics, by_normal)) light.irradiance = with_border(by_normal);
   for (std::size_t i = 0; i < mirror_sides.size(); ++i) {
     const double roughness = double(i) / double(mirror_sides.size() - 1);
     light.mirrors.push_back(

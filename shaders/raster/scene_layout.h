@@ -140,11 +140,13 @@ REF_TYPE(SceneLayers, 4)
 // Light from all around: parity::EnvironmentLight.
 struct SceneEnvironment {
   REF(vec4) mirrors;     // level after level, each with a border
-  REF(vec4) irradiance;  // one level with its border
+  REF(vec4) irradiance;  // one level with its border, or none
   uint level_count;
   uint begins[6];
   uint sides[6];  // without borders
-  uint irradiance_side;
+  uint irradiance_side;  // 0: harmonics
+  vec3 harmonics[9];
+  uint padding;
 };
 REF_TYPE(SceneEnvironment, 8)
 

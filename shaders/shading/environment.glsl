@@ -1,4 +1,5 @@
-// Light from all around, prefiltered. Source: Karis 2013 (split sum).
+// Light from all around, prefiltered. Source: Karis 2013 (split sum); Ramamoorthi & Hanrahan 2001
+// (spherical harmonics).
 #ifndef PARITY_SHADING_ENVIRONMENT_GLSL
 #define PARITY_SHADING_ENVIRONMENT_GLSL
 #include "raster/scene_layout.h"
@@ -17,7 +18,19 @@ vec3 mirrored(ref_SceneEnvironment environment, vec3 direction, float roughness)
   return mix(sharper, softer, level - float(i));
 }
 
+vec3 irradiance_by_harmonics(ref_SceneEnvironment e, vec3 n) {
+  const vec3 sum = e.at[0].harmonics[0] + e.at[0].harmonics[1] * n.y + e.at[0].harmonics[2] * n.z +
+                   e.at[0].harmonics[3] * n.x + e.at[0].harmonics[4] * (n.x * n.y) +
+                   e.at[0].harmonics[5] * (n.y * n.z) +
+                   e.at[0].harmonics[6] * (3.0 * n.z * n.z - 1.0) +
+                   e.at[0].harmonics[7] * (n.x * n.z) +
+                   e.at[0].harmonics[8] * (n.x * n.x - n.y * n.y);
+  return max(sum, vec3(0.0));
+}
+
+// By a unit normal.
 vec3 irradiance_over_pi(ref_SceneEnvironment e, vec3 n) {
+  if (e.at[0].irradiance_side == 0u) return irradiance_by_harmonics(e, n);
   return octahedral_texel(e.at[0].irradiance, 0u, e.at[0].irradiance_side, octahedral_uv(n));
 }
 #endif
