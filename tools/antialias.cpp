@@ -71,19 +71,45 @@ Frame enlarged(const Scene& scene, const Frame& frame, int samples) {
   return remade(scene, frame, options);
 }
 
+/// Filters with negative lobes go past what they filter: no light is below 0, no alpha above 1.
+Grid<vec4> within_range(Grid<vec4> color) {
+  for (vec4& c : color) c = vec4(glm::max(vec3(c), vec3(0)), glm::clamp(c.w, 0.0f, 1.0f));
+  return color;
+}
+
+/// "ssaaN" or "ssaaN:FILTER".
+std::optional<Antialiasing> parse_supersampling(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  const auto samples = number_after(text.substr(0, colon), "ssaa");
+  if (!samples || *samples < 4 || *samples > 256 ||
+      root_of(*samples) * root_of(*samples) != *samples)
+    return std::nullopt;
+  Antialiasing mode{.kind = Kind::ssaa, .samples = *samples};
+  if (colon == std::string::npos) return mode;
+  for (const ReconstructionFilter filter : all_reconstruction_filters)
+    if (name_of(filter) == text.substr(colon + 1)) {
+      mode.filter = filter;
+      return mode;
+    }
+  return std::nullopt;
+}
+
 /// One scene by any mode.
 class Device {
  public:
-  Device(gpu::Context& context, const Scene& scene, const Frame& frame, double exposure)
-      : context_(context), scene_(scene), frame_(frame), gain_(std::exp2(float(exposure))) {}
+  Device(gpu::Context& context, const Scene& scene, const Frame& frame, const Screen& screen)
+      : context_(context),
+        scene_(scene),
+        frame_(frame),
+        screen_(screen),
+        gain_(std::exp2(float(screen.exposure))) {}
 
   Picture render(const Antialiasing& mode) {
     switch (mode.kind) {
       case Kind::ssaa: {
         Picture picture = gpu::render(context_, scene_, enlarged(scene_, frame_, mode.samples));
-        picture.color =
-            gpu::reconstruct(context_, picture.color, {frame_.options.width, frame_.options.height},
-                             ReconstructionFilter::box);
+        picture.color = within_range(gpu::reconstruct(
+            context_, picture.color, {frame_.options.width, frame_.options.height}, mode.filter));
         return picture;
       }
       case Kind::accumulate:
@@ -97,7 +123,7 @@ class Device {
   }
 
   Antialiased choose(double max_error) {
-    const Grid<vec4> truth = shown(render({.kind = Kind::accumulate, .samples = 64}).color);
+    const Grid<vec4> truth = shown(render({.kind = Kind::accumulate, .samples = 64}));
     Antialiased best;
     best.meets = false;
     double least = 0;
@@ -106,7 +132,7 @@ class Device {
       const double start = detail::wall_seconds();
       Picture picture = render(mode);
       const double seconds = detail::wall_seconds() - start;
-      const double error = mean(flip(truth, shown(picture.color), usual_pixels_per_degree));
+      const double error = mean(flip(truth, shown(picture), usual_pixels_per_degree));
       best.trials.push_back({name_of(mode), error, seconds});
       if (error > max_error || (best.meets && seconds >= least)) continue;
       best.picture = std::move(picture);
@@ -118,11 +144,12 @@ class Device {
   }
 
  private:
+  /// ssaaN costs what accumulateN does, at places that are no better.
   static std::vector<Antialiasing> candidates() {
-    return {{.kind = Kind::msaa, .samples = 1},       {.kind = Kind::msaa, .samples = 4},
-            {.kind = Kind::adaptive, .samples = 16},  {.kind = Kind::msaa, .samples = 8},
-            {.kind = Kind::accumulate, .samples = 4}, {.kind = Kind::accumulate, .samples = 8},
-            {.kind = Kind::accumulate, .samples = 16}};
+    return {{.kind = Kind::msaa, .samples = 1},       {.kind = Kind::msaa, .samples = 2},
+            {.kind = Kind::msaa, .samples = 4},       {.kind = Kind::adaptive, .samples = 16},
+            {.kind = Kind::msaa, .samples = 8},       {.kind = Kind::accumulate, .samples = 4},
+            {.kind = Kind::accumulate, .samples = 8}, {.kind = Kind::accumulate, .samples = 16}};
   }
 
   gpu::Antialiaser& antialiaser() {
@@ -130,7 +157,9 @@ class Device {
     return *antialiaser_;
   }
 
-  Grid<vec4> shown(Grid<vec4> color) const {
+  Grid<vec4> shown(const Picture& picture) const {
+    if (screen_.shown) return screen_.shown(picture);
+    Grid<vec4> color = picture.color;
     for (vec4& c : color) c = vec4(vec3(c) * gain_, c.w);
     return color;
   }
@@ -138,6 +167,7 @@ class Device {
   gpu::Context& context_;
   const Scene& scene_;
   const Frame& frame_;
+  const Screen& screen_;
   float gain_;
   std::optional<gpu::Renderer> renderer_;
   std::optional<gpu::Antialiaser> antialiaser_;
@@ -167,21 +197,20 @@ Antialiasing parse_antialiasing(const std::string& text) {
   if (text == "auto") return {.kind = Kind::automatic};
   if (const auto n = number_after(text, "msaa"); n && (*n == 2 || *n == 4 || *n == 8))
     return {.kind = Kind::msaa, .samples = *n};
-  if (const auto n = number_after(text, "ssaa");
-      n && *n >= 4 && *n <= 256 && root_of(*n) * root_of(*n) == *n)
-    return {.kind = Kind::ssaa, .samples = *n};
+  if (const auto mode = parse_supersampling(text)) return *mode;
   if (const auto n = number_after(text, "accumulate"); n && *n >= 1 && *n <= most_frames)
     return {.kind = Kind::accumulate, .samples = *n};
   throw std::invalid_argument(
       "--aa is '" + text +
-      "', must be none, msaa2, msaa4, msaa8, ssaaN (N a square, 4 to 256), accumulateN (1 to "
-      "4096), adaptive or auto");
+      "', must be none, msaa2, msaa4, msaa8, ssaaN or ssaaN:FILTER (N a square, 4 to 256; "
+      "box, tent, gaussian, mitchell, lanczos), accumulateN (1 to 4096), adaptive or auto");
 }
 
 std::string name_of(const Antialiasing& mode) {
   switch (mode.kind) {
     case Kind::ssaa:
-      return "ssaa" + std::to_string(mode.samples);
+      return "ssaa" + std::to_string(mode.samples) +
+             (mode.filter == ReconstructionFilter::box ? "" : ":" + name_of(mode.filter));
     case Kind::accumulate:
       return "accumulate" + std::to_string(mode.samples);
     case Kind::adaptive:
@@ -194,8 +223,8 @@ std::string name_of(const Antialiasing& mode) {
 }
 
 Antialiased render_antialiased(gpu::Context& context, const Scene& scene, const Frame& frame,
-                               const Antialiasing& mode, double exposure) {
-  Device device(context, scene, frame, exposure);
+                               const Antialiasing& mode, const Screen& screen) {
+  Device device(context, scene, frame, screen);
   if (mode.kind == Kind::automatic) return device.choose(mode.max_error);
   return {.picture = device.render(mode), .mode = name_of(mode), .trials = {}};
 }
@@ -211,9 +240,10 @@ Antialiased render_antialiased(const Scene& scene, const Frame& frame, const Ant
     const ivec2 size{frame.options.width, frame.options.height};
     Grid<dvec4> wide{result.picture.color.width(), result.picture.color.height()};
     std::copy(result.picture.color.begin(), result.picture.color.end(), wide.begin());
-    wide = cpu::reconstruct(wide, size, ReconstructionFilter::box);
+    wide = cpu::reconstruct(wide, size, mode.filter);
     result.picture.color = {size.x, size.y};
     std::copy(wide.begin(), wide.end(), result.picture.color.begin());
+    result.picture.color = within_range(std::move(result.picture.color));
   } else {
     throw std::invalid_argument("--aa " + result.mode + " is of --backend gpu only");
   }

@@ -125,6 +125,21 @@ struct Task {
   }
 };
 
+/// Finished, as a screen shows it: linear, 0 to 1.
+Grid<vec4> displayed(gpu::Context& context, const Task& task, const Picture& finished) {
+  const RenderArguments& a = task.arguments;
+  return over(gpu::tone_map(context, straight_alpha(finished.color), parse_tone_map(a.tone_map),
+                            float(a.exposure)),
+              parse_background(a.background));
+}
+
+/// What --aa auto judges: pictures to be put over something else stand over middle grey.
+Grid<vec4> judged(gpu::Context& context, const Task& task, Picture picture) {
+  task.finish(picture);
+  constexpr float grey = 0.214f;
+  return over(displayed(context, task, picture), vec4(grey, grey, grey, 1));
+}
+
 Job render_on_cpu(Task& task) {
   const RenderArguments& a = task.arguments;
   Progress progress{"rendering", 1000, a.quiet};
@@ -186,18 +201,15 @@ Job render_on_gpu(Task& task) {
   task.frame.behind = look_behind(task.scene, task.frame,
                                   [&](const Frame& frame) { return renderer.render(frame).color; });
   if (const auto mode = antialiasing(a))
-    take(job, render_antialiased(context, task.scene, task.frame, *mode, a.exposure));
+    take(job, render_antialiased(
+                  context, task.scene, task.frame, *mode,
+                  {a.exposure, [&](const Picture& p) { return judged(context, task, p); }}));
   else
     job.picture = renderer.render(task.frame);
   if (job.meets) task.finish(job.picture);
   job.seconds = seconds_now() - start;
   if (task.display && job.meets)
-    job.display =
-        gpu::encode_srgb(context,
-                         over(gpu::tone_map(context, straight_alpha(job.picture.color),
-                                            parse_tone_map(a.tone_map), float(a.exposure)),
-                              parse_background(a.background)),
-                         0);
+    job.display = gpu::encode_srgb(context, displayed(context, task, job.picture), 0);
   return job;
 }
 
@@ -329,7 +341,8 @@ void add_render_verb(CLI::App& app, int& exit_code) {
                           ->capture_default_str();
   verb->add_option("--aa", a->aa,
                    "Antialiasing: none, msaa2, msaa4, msaa8; ssaaN (N a square): larger, then "
-                   "averaged; accumulateN: N shifted frames; adaptive: 16 samples where neighbours "
+                   "averaged, or ssaaN:tent, gaussian, mitchell, lanczos; accumulateN: N shifted "
+                   "frames; adaptive: 16 samples where neighbours "
                    "differ; auto: the fastest within --max-error")
       ->excludes(msaa);
   verb->add_option("--max-error", a->max_error,

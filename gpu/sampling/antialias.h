@@ -33,8 +33,8 @@ class Antialiaser {
   /// them.
   ///
   /// @param frame     1 sample a pixel.
-  /// @param contrast  of gamma-2 display values of any channel, 0 to 1; pixels with more are
-  ///                  refined.
+  /// @param contrast  of gamma-2 display values of any channel or of alpha, 0 to 1; pixels with more
+  ///                  are refined.
   /// @param gain      of the display, linear.
   /// @return          colour only.
   /// @throws std::invalid_argument  samples not 1.

@@ -89,7 +89,7 @@ struct FrameSumArgs {
 /// outside of the picture never need any.
 struct PixelNeedArgs {
   REF(uint) words;     ///< RGBA16F of the frame
-  REF(uint) codes;     ///< one a pixel: what a screen shows, 10 bits a channel
+  REF(uint) codes;     ///< one a pixel: what a screen shows, 8 bits a channel, and alpha
   REF(uint) averages;  ///< RGBA16F: means over pixels that need no more
   REF(uint) masks;     ///< one a row: bit x is set where pixel x needs more
   REF(uint) counts;    ///< of a row's pixels that do; scanned: of all rows before

@@ -27,15 +27,15 @@ vec4 mean_around(ivec2 pixel) {
 
 // The least and the largest of each channel's codes.
 struct Range {
-  uvec3 low;
-  uvec3 high;
+  uvec4 low;
+  uvec4 high;
 };
 
 Range joined(Range a, Range b) { return Range(min(a.low, b.low), max(a.high, b.high)); }
 
 Range code_range(ivec2 pixel) {
   const uint code = args.codes.at[index_of(pixel)];
-  const uvec3 channels = uvec3(code, code >> 10u, code >> 20u) & 1023u;
+  const uvec4 channels = uvec4(code, code >> 8u, code >> 16u, code >> 24u) & 255u;
   return Range(channels, channels);
 }
 
@@ -62,9 +62,9 @@ void main() {
     for (int x = 0; x < end; ++x) {
       const Range right = column_range(first + ivec2(x + 1, 0));
       const Range around = joined(left, joined(middle, right));
-      const uvec3 range = around.high - around.low;
-      const uint largest = max(range.x, max(range.y, range.z));
-      if (float(largest) > 1023.0 * args.contrast)
+      const uvec4 range = around.high - around.low;
+      const uint largest = max(max(range.x, range.y), max(range.z, range.w));
+      if (float(largest) > 255.0 * args.contrast)
         mask |= 1u << x;
       else if (largest > 0u)
         write_mean(first + ivec2(x, 0));
