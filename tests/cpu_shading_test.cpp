@@ -194,7 +194,7 @@ TEST(CpuShading, ReadsRoughnessFromGreenAndMetallicFromBlue) {
     const double once = 0.96 * base * (1 - metallic) / pi + f0 / (4 * pi * alpha * alpha);
     // What several bounces add, of the metal: Kulla & Conty's lobe, straight on.
     const dvec3 albedo = cpu::albedo_at(albedo_table(), 1, 128 / 255.0);
-    const double lost = 1 - albedo.x - albedo.y, f = (1 + 20 * f0) / 21;
+    const double lost = 1 - albedo.x - albedo.y, f = (1 + 20 * base) / 21;
     const double more =
         lost * lost / (pi * (1 - albedo.z)) * f * f * albedo.z / (1 - f * (1 - albedo.z));
     EXPECT_NEAR(got[c], once + metallic * more, stored) << c;

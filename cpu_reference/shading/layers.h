@@ -27,13 +27,14 @@ struct Surface {
   Real body_f0{}, body_f90{};  ///< of the border over the diffuse part, in its largest channel
   Real roughness{};
   Real alpha_squared{};  ///< roughness^4
-  bool bounces = false;  ///< light that leaves after several bounces counts, as far as it is metal
   Real metallic{};
-  Triple<Real> albedo;  ///< of the table: slope, offset, mean
+  bool metal = false;                 ///< anywhere
+  Triple<Real> plastic_f0, metal_f0;  ///< what f0 is mixed from
+  Triple<Real> albedo;                ///< of the table: slope, offset, mean
 
   bool stretched = false;
   Triple<Real> along, across;
-  Real alpha_along{}, alpha_across{}, bend{};
+  Real alpha_along{}, alpha_across{};
 
   bool coated = false;
   Triple<Real> coat_normal;
@@ -80,7 +81,7 @@ Real stretched_lobe(const Surface<Real>& s, const Triple<Real>& l, const Triple<
   return d * (Real(0.5) / (n_dot_l * slant(s.to_eye, s.n_dot_v) + s.n_dot_v * slant(l, n_dot_l)));
 }
 
-/// What several bounces between microfacets add. Source: Kulla & Conty 2017.
+/// What several bounces between the microfacets of a metal add. Source: Kulla & Conty 2017.
 template <class Real>
 Triple<Real> bounced_lobe(const Surface<Real>& s, const Real& n_dot_l) {
   const Triple<Real> toward_light = tabulated_albedo(albedo_table(), n_dot_l, s.roughness);
@@ -89,10 +90,10 @@ Triple<Real> bounced_lobe(const Surface<Real>& s, const Real& n_dot_l) {
       (Real(1.0) - (toward_light.x + toward_light.y)) * (Real(1.0) - (s.albedo.x + s.albedo.y));
   const Real lobe = lost / (rounded<Real>(std::numbers::pi) * most(Real(1.0) - mean, Real(1e-6)));
   const auto channel = [&](const Real& f0) {
-    const Real f = f0 + (s.f90 - f0) * rounded<Real>(1.0 / 21);
+    const Real f = f0 + (Real(1.0) - f0) * rounded<Real>(1.0 / 21);
     return lobe * (square(f) * mean / (Real(1.0) - f * (Real(1.0) - mean)));
   };
-  return {channel(s.f0.x), channel(s.f0.y), channel(s.f0.z)};
+  return {channel(s.metal_f0.x), channel(s.metal_f0.y), channel(s.metal_f0.z)};
 }
 
 /// Charlie's distribution times the visibility of Neubelt & Pettineo, for a white sheen.
@@ -119,7 +120,7 @@ Triple<Real> reflected(const Surface<Real>& s, const Triple<Real>& to_light, con
   Triple<Real> diffuse = s.diffuse * (entering * rounded<Real>(std::numbers::inv_pi));
   if (s.transmits) diffuse = diffuse * (Real(1.0) - s.transmission);
   Triple<Real> sum = diffuse + f * lobe;
-  if (s.bounces) sum = sum + bounced_lobe(s, n_dot_l) * s.metallic;
+  if (s.metal) sum = sum + bounced_lobe(s, n_dot_l) * s.metallic;
   if (s.fibrous) {
     const Real toward_light = tabulated_sheen(albedo_table(), n_dot_l, s.sheen_roughness);
     const Real taken = largest(s.sheen) * most(s.sheen_albedo, toward_light);
@@ -169,14 +170,71 @@ Triple<Real> reflection(const Triple<Real>& to_eye, const Triple<Real>& normal,
   return normal * (Real(1.0) - part) + mirror * part;
 }
 
-/// Where the stretched lobe looks: the normal leans toward the eye across the tangent.
-/// Source: KHR_materials_anisotropy, "Implementation", image-based lighting.
+/// Light from all around as a lobe gathers it, and its albedo by slope and offset in F0.
 template <class Real>
-Triple<Real> mirror_direction(const Surface<Real>& s) {
-  if (!s.stretched) return reflection(s.to_eye, s.normal, s.roughness);
-  const Triple<Real> leaning = cross(cross(s.across, s.to_eye), s.across);
-  return reflection(s.to_eye, normalized(leaning * (Real(1.0) - s.bend) + s.normal * s.bend),
-                    s.roughness);
+struct Gathered {
+  Triple<Real> radiance;
+  Real slope{}, offset{};
+};
+
+/// GGX's slopes along the stretch have the distribution x / sqrt(1 + x^2) in units of its width
+/// there; eight half vectors stand in the middle of an eighth of it each. A tap is as rough as the
+/// lobe is across at its slope, at least as half vectors are apart; light is weighed by its cosine.
+/// The mirror of the isotropic surface counts a thousandth, so that there is always something.
+template <class Real>
+Gathered<Real> gather_streak(const Surface<Real>& s, const Surroundings& around) {
+  constexpr int taps = 8;
+  const Triple<Real> eye =
+      s.to_eye - s.normal * (Real(2.0) * least(dot(s.normal, s.to_eye), Real(0.0)));
+  const auto slant = [&](const Triple<Real>& w, const Real& cosine) {
+    return square_root(square(s.alpha_along * dot(s.along, w)) +
+                       square(s.alpha_across * dot(s.across, w)) + square(cosine));
+  };
+  const Real eye_slant = slant(eye, s.n_dot_v);
+  const Real little = rounded<Real>(0.001);
+  Gathered<Real> sum{
+      mirror_radiance(around, reflection(s.to_eye, s.normal, s.roughness), s.roughness) * little};
+  Real weight = little;
+  for (int k = 0; k < taps; ++k) {
+    const double part = (k + 0.5) / taps, x = 2 * part - 1, rise = 1 / std::sqrt(1 - x * x);
+    const Triple<Real> h =
+        normalized(s.normal + s.along * (s.alpha_along * rounded<Real>(x * rise)));
+    const Real up = most(dot(s.normal, h), rounded<Real>(0.01));
+    const Real facing = most(dot(eye, h), Real(0.0));
+    const Triple<Real> light = h * (Real(2.0) * facing) - eye;
+    const Real cosine = most(dot(s.normal, light), Real(0.0));
+    const Real across = s.alpha_across * rounded<Real>(rise) * up;
+    const Real apart = s.alpha_along * rounded<Real>(std::pow(rise, 3) / taps) * square(up);
+    const Real wide = least(most(across, apart), Real(1.0));
+    sum.radiance = sum.radiance + mirror_radiance(around, light, square_root(wide)) * cosine;
+    weight = weight + cosine;
+    const Real both = cosine * eye_slant + s.n_dot_v * slant(light, cosine);
+    const Real share = cosine * facing * Real(2.0 / taps) / (up * both);
+    const Real grazing = fifth_power(clamped(Real(1.0) - facing, 0, 1));
+    sum.slope = sum.slope + share * (Real(1.0) - grazing);
+    sum.offset = sum.offset + share * grazing;
+  }
+  const Real all_back = most(sum.slope + sum.offset, Real(1.0));
+  const Real inverse = Real(1.0) / weight;
+  return {sum.radiance * inverse, sum.slope / all_back, sum.offset / all_back};
+}
+
+/// The same of an isotropic surface by one lookup and the table.
+template <class Real>
+Gathered<Real> gather(const Surface<Real>& s, const Surroundings& around) {
+  if (s.stretched) return gather_streak(s, around);
+  return {mirror_radiance(around, reflection(s.to_eye, s.normal, s.roughness), s.roughness),
+          s.albedo.x, s.albedo.y};
+}
+
+/// Where the light that a sheen sends to the eye comes from in the mean, of any length: from the
+/// eye's side of the normal, the lower the smoother the fibres are. The factor fits the mean
+/// direction of the lobe.
+template <class Real>
+Triple<Real> sheen_direction(const Surface<Real>& s) {
+  const Triple<Real> aside = s.to_eye - s.normal * dot(s.normal, s.to_eye);
+  const Real r = s.sheen_roughness;
+  return s.normal + aside * (rounded<Real>(0.24) / (r * square_root(r)));
 }
 
 /// The way of the eye's ray within a surface that light passes: refracted unless it is thin.
@@ -225,19 +283,24 @@ Surrounded<Real> passed(const Surface<Real>& s, const Surroundings& around,
 /// @param openness  share of the light that is not mirrored that arrives.
 template <class Real>
 Surrounded<Real> surrounded(const Surface<Real>& s, const Surroundings& around, double openness) {
-  const Triple<Real> mirror = mirror_radiance(around, mirror_direction(s), s.roughness);
+  const Gathered<Real> mirror = gather(s, around);
   const Triple<Real> mean = mean_radiance(around, s.normal) * Real(openness);
-  const Real total = s.albedo.x + s.albedo.y;
-  const Real lost = Real(1.0) - total;
-  const auto several = [&](const Real& single, const Real& f0, const Real& f90) {
-    const Real f = f0 + (f90 - f0) * rounded<Real>(1.0 / 21);
-    return single * f / (Real(1.0) - lost * f) * lost;
+  const Real lost = Real(1.0) - (mirror.slope + mirror.offset);
+  const auto once = [&](const Real& f0, const Real& f90) {
+    return f0 * mirror.slope + f90 * mirror.offset;
   };
-  const Triple<Real> single = s.f0 * s.albedo.x + all(s.f90 * s.albedo.y);
-  const Triple<Real> more{several(single.x, s.f0.x, s.f90), several(single.y, s.f0.y, s.f90),
-                          several(single.z, s.f0.z, s.f90)};
-  const Real border = s.body_f0 * s.albedo.x + s.body_f90 * s.albedo.y;
-  const Real entering = Real(1.0) - border - several(border, s.body_f0, s.body_f90);
+  const auto several = [&](const Real& f0, const Real& f90) {
+    const Real f = f0 + (f90 - f0) * rounded<Real>(1.0 / 21);
+    return once(f0, f90) * f / (Real(1.0) - lost * f) * lost;
+  };
+  const auto mixed = [&](const Real& plastic, const Real& metal) {
+    const Real dielectric = several(plastic, s.body_f90) * (Real(1.0) - s.metallic);
+    return s.metal ? dielectric + several(metal, Real(1.0)) * s.metallic : dielectric;
+  };
+  const Triple<Real> single{once(s.f0.x, s.f90), once(s.f0.y, s.f90), once(s.f0.z, s.f90)};
+  const Triple<Real> more{mixed(s.plastic_f0.x, s.metal_f0.x), mixed(s.plastic_f0.y, s.metal_f0.y),
+                          mixed(s.plastic_f0.z, s.metal_f0.z)};
+  const Real entering = Real(1.0) - once(s.body_f0, s.body_f90) - several(s.body_f0, s.body_f90);
   Surrounded<Real> result{{}, Real(0.0)};
   Triple<Real> body = s.diffuse * mean * entering;
   if (s.transmits) {
@@ -246,10 +309,11 @@ Surrounded<Real> surrounded(const Surface<Real>& s, const Surroundings& around, 
     result.open = through.open;
     body = body * (Real(1.0) - s.transmission) + through.radiance;
   }
-  result.radiance = single * mirror + more * mean + body;
+  result.radiance = single * mirror.radiance + more * mean + body;
   if (s.fibrous) {
     const Real keep = most(Real(1.0) - largest(s.sheen) * s.sheen_albedo, Real(0.0));
-    result.radiance = result.radiance * keep + s.sheen * s.sheen_albedo * mean;
+    const Triple<Real> light = mean_radiance(around, sheen_direction(s)) * Real(openness);
+    result.radiance = result.radiance * keep + s.sheen * s.sheen_albedo * light;
     result.open = result.open * keep;
   }
   if (s.coated) {

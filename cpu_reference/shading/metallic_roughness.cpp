@@ -89,13 +89,17 @@ void add_base(const Material& m, const ShadingPoint<Real>& p, const Triple<Real>
       m, p, s.n_dot_v, {dielectric(tinted.x), dielectric(tinted.y), dielectric(tinted.z)}, weight);
   s.body_f0 = largest(plastic);
   s.body_f90 = weight;
+  s.plastic_f0 = plastic;
+  s.metal = m.metallic > 0;
   s.f0 = plastic * body;
-  if (m.metallic > 0) s.f0 = s.f0 + filmed(m, p, s.n_dot_v, base, Real(1.0)) * metallic;
+  if (s.metal) {
+    s.metal_f0 = filmed(m, p, s.n_dot_v, base, Real(1.0));
+    s.f0 = s.f0 + s.metal_f0 * metallic;
+  }
   s.f90 = weight * body + metallic;
   s.roughness =
       clamped(Real(double(m.roughness)) * p.inputs[input::roughness_texture], least_roughness, 1.0);
   s.alpha_squared = square(square(s.roughness));
-  s.bounces = m.metallic > 0;
   s.metallic = metallic;
 }
 
@@ -114,7 +118,6 @@ void add_anisotropy(const Material& m, const ShadingPoint<Real>& p, const Tangen
   s.across = cross(s.normal, s.along);
   s.alpha_across = square(s.roughness);
   s.alpha_along = s.alpha_across + (Real(1.0) - s.alpha_across) * square(strength);
-  s.bend = square(square(Real(1.0) - strength * (Real(1.0) - s.roughness)));
 }
 
 /// Source: KHR_materials_clearcoat.

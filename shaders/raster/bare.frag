@@ -20,7 +20,8 @@ void main() {
   m.grazing = 1.0;
   m.border = vec2(0.04, 1.0);
   m.roughness = clamp(args.roughness, 0.045, 1.0);
-  m.bounces = 0.0;
+  m.dielectric = m.metal = vec3(0.04);
+  m.metallic = 0.0;
   m.albedo = albedo_at(args.albedo_table, view_cosine(n, v), m.roughness);
   const EnvironmentShares s = environment_shares(m);
   color = vec4(material.ambient * (s.mirror + s.bounced + s.entering * m.diffuse) +

@@ -148,7 +148,9 @@ Microsurface base_surface(SceneMaterial material, Texels texels, vec3 base, vec3
   m.grazing = dielectric_grazing * (1.0 - metallic) + metallic;
   m.border = vec2(max_component(dielectric), dielectric_grazing);
   m.roughness = clamp(material.roughness * texels.metallic_roughness.g, 0.045, 1.0);
-  m.bounces = metallic;
+  m.metal = metal;
+  m.dielectric = dielectric;
+  m.metallic = metallic;
   m.albedo = vec3(0.0);
   return m;
 }
@@ -176,8 +178,6 @@ Layers layers_of(SceneArgs args, SceneLayers from, uint flags, Microsurface m,
   y.across = cross(n, y.along);
   const float alpha = m.roughness * m.roughness;
   y.alpha = vec2(alpha + (1.0 - alpha) * (strength * strength), alpha);
-  const float lean = 1.0 - strength * (1.0 - m.roughness);
-  y.bend = (lean * lean) * (lean * lean);
   y.coat_normal = from.has_coat_normal != 0u
                       ? mapped_normal(frame, texels.coat_normal, from.clearcoat_normal_scale)
                       : frame.normal;
@@ -212,6 +212,49 @@ vec3 mirror_of(vec3 v, vec3 n, float roughness) {
   return n * (1.0 + part * (2.0 * dot(n, v) - 1.0)) - v * part;
 }
 
+// What a stretched lobe shows of the surroundings, and the slope and offset of its albedo in F0.
+struct Streak {
+  vec3 radiance;
+  vec2 albedo;
+};
+
+// Eight half vectors along the stretch, at the middles of equal parts of the distribution of slopes
+// there. Each shows what an isotropic mirror does that is as rough as the lobe is across, or as the
+// half vectors are apart. A thousandth of the plain mirror is for where none of them sends light.
+Streak streak(SceneArgs args, Layers y, vec3 n, vec3 v, float roughness) {
+  const vec3 e = v - n * (2.0 * min(dot(n, v), 0.0));  // not behind the normal
+  const float n_v = view_cosine(n, e);
+  const float slant_v = length(vec3(y.alpha * vec2(dot(y.along, e), dot(y.across, e)), n_v));
+  Streak s = Streak(mirror_radiance(args, mirror_of(v, n, roughness), roughness) * 0.001, vec2(0.0));
+  float weights = 0.001;
+  [[dont_unroll]] for (uint k = 0u; k < 8u; ++k) {
+    const float quantile = (2.0 * float(k) - 7.0) / 8.0;
+    const float steep = inversesqrt(1.0 - quantile * quantile);
+    const vec3 h = unit_or_zero(n + y.along * (y.alpha.x * quantile * steep));
+    const float v_h = max(dot(e, h), 0.0);
+    const vec3 l = h * (2.0 * v_h) - e;
+    const float n_l = max(dot(n, l), 0.0), n_h = max(dot(n, h), 0.01);
+    const float apart = y.alpha.x * (steep * steep * steep) * (n_h * n_h) / 8.0;
+    const float alpha = min(max(y.alpha.y * steep * n_h, apart), 1.0);
+    s.radiance += mirror_radiance(args, l, sqrt(alpha)) * n_l;
+    weights += n_l;
+    const float slant_l = length(vec3(y.alpha * vec2(dot(y.along, l), dot(y.across, l)), n_l));
+    // D is what half vectors are drawn by: 4 V n.l v.h / n.h is left, a part of 8.
+    const float part = 0.25 * n_l * v_h / (n_h * (n_l * slant_v + n_v * slant_l));
+    const float rise = schlick_weight(v_h);
+    s.albedo += part * vec2(1.0 - rise, rise);
+  }
+  s.radiance /= weights;
+  s.albedo /= max(s.albedo.x + s.albedo.y, 1.0);
+  return s;
+}
+
+// Where the light of a sheen comes from in the mean, of any length: fibres stand on end and send light
+// back, the more so the smoother they are. A fit to the lobe's mean direction.
+vec3 sheen_way(vec3 n, vec3 v, float roughness) {
+  return n + (v - n * dot(n, v)) * (0.24 / (roughness * sqrt(roughness)));
+}
+
 // The way of the eye's ray within a surface that light passes.
 vec3 way_behind(Layers y, vec3 n, vec3 v) {
   if (!y.thick) return -v;
@@ -237,9 +280,14 @@ vec3 behind(SceneArgs args, Microsurface m, Layers y, vec3 n, vec3 v, vec3 p, ve
 // Radiance from all around, without occlusion, and the share of what is behind that is to be seen.
 // Light that comes straight, not by mirroring, is let in by `openness`.
 vec4 surrounded(SceneArgs args, Microsurface m, Layers y, vec3 n, vec3 v, vec3 p, float openness) {
-  vec3 lean = n;
-  if (has_layers && y.stretched)
-    lean = unit_or_zero(cross(cross(y.across, v), y.across) * (1.0 - y.bend) + n * y.bend);
+  vec3 mirror;
+  if (has_layers && y.stretched) {
+    const Streak seen = streak(args, y, n, v, m.roughness);
+    mirror = seen.radiance;
+    m.albedo.xy = seen.albedo;
+  } else {
+    mirror = mirror_radiance(args, mirror_of(v, n, m.roughness), m.roughness);
+  }
   const EnvironmentShares s = environment_shares(m);
   const vec3 mean = mean_radiance(args, n) * openness;
   vec3 body = m.diffuse * s.entering * mean;
@@ -249,10 +297,11 @@ vec4 surrounded(SceneArgs args, Microsurface m, Layers y, vec3 n, vec3 v, vec3 p
     if (y.see_through) open = clamp(min_component(passing), 0.0, 1.0 - 1.0 / 256.0);
     body = body * (1.0 - y.transmission) + behind(args, m, y, n, v, p, passing, open);
   }
-  vec3 sum = s.mirror * mirror_radiance(args, mirror_of(v, lean, m.roughness), m.roughness) + s.bounced * mean + body;
+  vec3 sum = s.mirror * mirror + s.bounced * mean + body;
   if (has_layers && max_component(y.sheen) > 0.0) {
     const float keep = max(1.0 - max_component(y.sheen) * y.sheen_albedo, 0.0);
-    sum = sum * keep + y.sheen * y.sheen_albedo * mean;
+    sum = sum * keep + y.sheen * y.sheen_albedo * openness *
+                           mean_radiance(args, sheen_way(n, v, y.sheen_roughness));
     open *= keep;
   }
   if (has_layers && y.coat_weight > 0.0) {

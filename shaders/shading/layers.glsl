@@ -9,7 +9,6 @@ struct Layers {
   vec3 along;   // unit
   vec3 across;
   vec2 alpha;
-  float bend;   // 1: the normal does not lean
   float coat_weight;  // 0: none
   vec3 coat_normal;
   float coat_roughness;

@@ -10,12 +10,14 @@ layout(constant_id = 25) const bool has_metal = true;  // of any material
 
 struct Microsurface {
   vec3 diffuse;      // albedo of the diffuse part, c_diff
-  vec3 reflectance;  // at normal incidence, F0
+  vec3 reflectance;  // at normal incidence, F0: of dielectric and metal, mixed
   float grazing;     // at grazing angles, F90
   vec2 border;       // F0 and F90 over the diffuse part: of a dielectric, its largest channel
   float roughness;   // perceptual, at least 0.045
+  vec3 dielectric;   // F0 of either
+  vec3 metal;
+  float metallic;
   vec3 albedo;       // of the table, toward the eye
-  float bounces;     // how much several bounces of punctual light count: that of metal
 };
 
 // v / |v|; 0 stays 0.
@@ -39,9 +41,8 @@ vec3 base_reflection(Microsurface m, float lobe, float v_h, float n_l, ref_vec4 
   const vec3 f = m.reflectance + (m.grazing - m.reflectance) * weight;
   const float passed = 1.0 - (m.border.x + (m.border.y - m.border.x) * weight);
   vec3 sum = m.diffuse * (passed * (1.0 / pi)) + f * lobe;
-  if (has_metal && m.bounces > 0.0)
-    sum += m.bounces *
-           multi_scatter(albedo_at(albedo_table, n_l, m.roughness), m.albedo, m.reflectance, m.grazing);
+  if (has_metal && m.metallic > 0.0)
+    sum += m.metallic * multi_scatter(albedo_at(albedo_table, n_l, m.roughness), m.albedo, m.metal, 1.0);
   return sum;
 }
 
@@ -62,15 +63,20 @@ struct EnvironmentShares {
   float entering;
 };
 
+// What several bounces add to a single one, for the light from all around.
+vec3 several(Microsurface m, vec3 f0, float f90) {
+  const float lost = 1.0 - (m.albedo.x + m.albedo.y);
+  const vec3 mean = mean_schlick(f0, f90);
+  return (f0 * m.albedo.x + f90 * m.albedo.y) * mean / (1.0 - lost * mean) * lost;
+}
+
 EnvironmentShares environment_shares(Microsurface m) {
   EnvironmentShares s;
-  const float lost = 1.0 - (m.albedo.x + m.albedo.y);
-  const vec3 mean = mean_schlick(m.reflectance, m.grazing);
   s.mirror = m.reflectance * m.albedo.x + m.grazing * m.albedo.y;
-  s.bounced = s.mirror * mean / (1.0 - lost * mean) * lost;
-  const float border = m.border.x * m.albedo.x + m.border.y * m.albedo.y;
-  const float border_mean = m.border.x + (m.border.y - m.border.x) * (1.0 / 21.0);
-  s.entering = 1.0 - border - border * border_mean / (1.0 - lost * border_mean) * lost;
+  s.bounced = several(m, m.dielectric, m.border.y) * (1.0 - m.metallic);
+  if (has_metal) s.bounced += several(m, m.metal, 1.0) * m.metallic;
+  s.entering = 1.0 - (m.border.x * m.albedo.x + m.border.y * m.albedo.y) -
+               several(m, m.border.xxx, m.border.y).x;
   return s;
 }
 #endif
