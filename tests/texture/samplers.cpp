@@ -130,11 +130,10 @@ const Registration trilinear = software_sampler(
     "texture/trilinear", "Two mip levels, mixed by the level of detail of the pixel's footprint",
     {113, 114}, samplers[2]);
 
-Lookups for_hardware(const Setting& setting, const gpu::DeviceInfo& device) {
-  const int format = setting.count("format");
-  Lookups p = make_lookups(setting, samplers[std::size_t(setting.count("filter"))], format == 1);
-  p.format = std::array{gpu::Format::rgba8, gpu::Format::rgba8_srgb,
-                        gpu::Format::rgba32_float}[std::size_t(format)];
+Lookups for_hardware(const Setting& setting, const gpu::DeviceInfo& device, gpu::Format format) {
+  Lookups p = make_lookups(setting, samplers[std::size_t(setting.count("filter"))],
+                           format == gpu::Format::rgba8_srgb);
+  p.format = format;
   p.precision.texel_weight = std::exp2(-device.subtexel_bits);
   p.precision.level_weight = std::exp2(-device.mipmap_bits);
   p.precision.srgb_decode = 0.5;
@@ -142,43 +141,66 @@ Lookups for_hardware(const Setting& setting, const gpu::DeviceInfo& device) {
   return p;
 }
 
-const Registration fixed_function = register_stage<Lookups, std::vector<dvec4>>({
-    .name = "texture/fixed_function",
-    .title = "The device's own sampler against all answers that the specification allows",
-    .source = "Vulkan 1.3, Image Sampling",
-    .rows = {110, 111, 113, 114},
-    .axes = with_sampler_axes(
-        {{.name = "filter", .low = 0, .high = 5, .standard = 2, .whole = true, .each = true},
-         {.name = "format", .low = 0, .high = 2, .standard = 0, .whole = true, .each = true}}),
-    .problem = for_hardware,
-    .cpu = {{.solve = [](const Lookups& p) { return sample_all(p); }}},
-    .gpu = {{.name = "hardware",
-             .solve =
-                 [](gpu::Context& context, const Lookups& p) {
-                   try {
-                     return widened(
-                         gpu::hardware_sample(context, p.texture(), p.footprints, p.format));
-                   } catch (const gpu::Error& error) {
-                     if (error.kind() == gpu::ErrorKind::missing_feature)
-                       throw Unsupported(error.what());
-                     throw;
-                   }
-                 }}},
-    .distance =
-        [](const Lookups& p, const std::vector<dvec4>& got, const std::vector<dvec4>&) {
-          return worst(p, got, [&](const TextureFootprint& f) {
-            return cpu::allowed_levels(dvec2(f.uv_dx), dvec2(f.uv_dy), p.levels[0].width(),
-                                       p.levels[0].height(), p.level_bits);
-          });
-        },
-    .tolerance =
-        [](const Lookups& p) {
-          return p.format == gpu::Format::rgba32_float ? 16 * 0x1p-24 : 1.5 / 255;
-        },
-    .why = "outside of the answers that the device's subTexelPrecisionBits and mipmapPrecisionBits "
-           "allow: floats as in software; 8-bit formats may be filtered in 8 bits, which rounds "
-           "after each of up to three mixes, half a code each",
-});
+/// Mixes that a lookup goes through one after the other: along u, along v, between levels.
+int mixes(const Sampler& s) {
+  const bool in_a_level = s.mag == Filter::linear || s.min == Filter::linear;
+  return (in_a_level ? 2 : 0) + (s.mip == Filter::linear ? 1 : 0);
+}
+
+/// Floats round as in software; 8-bit formats may be filtered in 8 bits, which rounds after each
+/// mix. The nearest texel of the nearest level is exact.
+double hardware_tolerance(const Lookups& p) {
+  const double in_floats = 16 * 0x1p-24;
+  return p.format == gpu::Format::rgba32_float ? in_floats
+                                               : in_floats + 0.5 / 255 * mixes(p.sampler);
+}
+
+std::vector<dvec4> sample_by_hardware(gpu::Context& context, const Lookups& p) {
+  try {
+    return widened(gpu::hardware_sample(context, p.texture(), p.footprints, p.format));
+  } catch (const gpu::Error& error) {
+    if (error.kind() == gpu::ErrorKind::missing_feature) throw Unsupported(error.what());
+    throw;
+  }
+}
+
+Registration fixed_function(const std::string& name, const std::string& format_name,
+                            gpu::Format format) {
+  return register_stage<Lookups, std::vector<dvec4>>({
+      .name = name,
+      .title = "The device's own sampler of " + format_name +
+               " against all answers that the specification allows",
+      .source = "Vulkan 1.3, Image Sampling",
+      .rows = {110, 111, 113, 114},
+      .axes = with_sampler_axes(
+          {{.name = "filter", .low = 0, .high = 5, .standard = 2, .whole = true, .each = true}}),
+      .problem =
+          [format](const Setting& setting, const gpu::DeviceInfo& device) {
+            return for_hardware(setting, device, format);
+          },
+      .cpu = {{.solve = [](const Lookups& p) { return sample_all(p); }}},
+      .gpu = {{.name = "hardware", .solve = sample_by_hardware}},
+      .distance =
+          [](const Lookups& p, const std::vector<dvec4>& got, const std::vector<dvec4>&) {
+            return worst(p, got, [&](const TextureFootprint& f) {
+              return cpu::allowed_levels(dvec2(f.uv_dx), dvec2(f.uv_dy), p.levels[0].width(),
+                                         p.levels[0].height(), p.level_bits);
+            });
+          },
+      .tolerance = hardware_tolerance,
+      .why = "outside of the answers that the device's subTexelPrecisionBits and "
+             "mipmapPrecisionBits allow: floats as in software; 8-bit formats may be filtered in "
+             "8 bits, which rounds after each mix, half a code each: two in a level, one between "
+             "levels, none for nearest texels of nearest levels",
+  });
+}
+
+const Registration of_floats =
+    fixed_function("texture/fixed_function", "floats", gpu::Format::rgba32_float);
+const Registration of_bytes =
+    fixed_function("texture/fixed_function_8bit", "8-bit codes", gpu::Format::rgba8);
+const Registration of_srgb =
+    fixed_function("texture/fixed_function_srgb", "sRGB codes", gpu::Format::rgba8_srgb);
 
 }  // namespace
 }  // namespace parity
