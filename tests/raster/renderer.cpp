@@ -68,6 +68,7 @@ Scene random_scene(const RenderProblem& problem) {
                     Filter::linear,
                     {}};
     if (i != 3) sampler.mip = i % 2 ? Filter::linear : Filter::nearest;
+    if (i == 1) sampler.max_anisotropy = 8;
     scene.textures.push_back({i % 2, sampler});
   }
   for (int i = 0; i < problem.objects; ++i) {

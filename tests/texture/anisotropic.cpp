@@ -20,9 +20,10 @@ cpu::Footprint widened(const TextureFootprint& f) {
 
 struct FootprintLookups {
   std::vector<Grid<u8vec4>> levels;
-  int max_anisotropy = 8;
+  bool srgb = false;
+  Sampler sampler;
   std::vector<TextureFootprint> footprints;
-  MippedTexture texture() const { return {levels, false, anisotropic(max_anisotropy)}; }
+  MippedTexture texture() const { return {levels, srgb, sampler}; }
 };
 auto fields_of(const FootprintLookups*) {
   return std::tuple{&FootprintLookups::levels, &FootprintLookups::footprints};
@@ -32,8 +33,11 @@ FootprintLookups make_lookups(const Setting& setting) {
   Random random{setting.seed};
   FootprintLookups p;
   const int side = setting.count("side");
-  p.levels = cpu::mip_pyramid(texture_test::random_image(side, (side + 1) / 2, random), false);
-  p.max_anisotropy = setting.count("max_anisotropy");
+  p.srgb = setting.count("srgb") != 0;
+  p.levels = cpu::mip_pyramid(texture_test::random_image(side, (side + 1) / 2, random), p.srgb);
+  p.sampler = anisotropic(setting.count("max_anisotropy"));
+  p.sampler.wrap_u = Wrap(setting.count("wrap"));
+  p.sampler.wrap_v = Wrap((setting.count("wrap") + 1) % 5);
   p.footprints = texture_test::random_footprints(side, (side + 1) / 2, 1500, random);
   return p;
 }
@@ -63,6 +67,8 @@ const Registration registration = register_stage<FootprintLookups, std::vector<d
     .source = "notes 6.3; Heckbert 1989",
     .rows = {115},
     .axes = {{.name = "max_anisotropy", .low = 1, .high = 16, .standard = 8, .whole = true},
+             {.name = "srgb", .low = 0, .high = 1, .standard = 0, .whole = true, .each = true},
+             {.name = "wrap", .low = 0, .high = 4, .standard = 0, .whole = true, .each = true},
              {.name = "side",
               .unit = "texel",
               .low = 1,
