@@ -73,6 +73,26 @@ TEST(CpuTexture, WrapsByItsMode) {
   EXPECT_NEAR(code(once, 7, 0.1), 30, rounding);
 }
 
+TEST(CpuTexture, ABorderIsTransparentBlack) {
+  const auto levels = ramp();
+  const MippedTexture nearest{levels, false, sampler(Wrap::clamp_to_border, Filter::nearest)};
+  for (const dvec2 outside : {dvec2(-0.001, 0.9), dvec2(1, 0.9), dvec2(0.9, -0.001), dvec2(0.9, 1),
+                              dvec2(7, 0.9), dvec2(-7, -7)})
+    EXPECT_EQ(cpu::sample(nearest, outside, 0).value, dvec4(0)) << outside.x << ", " << outside.y;
+  for (const dvec2 inside : {dvec2(0.999, 0.999), dvec2(0.75, 0.75)})
+    EXPECT_NEAR(cpu::sample(nearest, inside, 0).value.w * 255, 150, rounding);
+  // All of a side's texel at its centre, half of it on the border, nothing half a texel outside.
+  const MippedTexture linear{levels, false, sampler(Wrap::clamp_to_border, Filter::linear)};
+  EXPECT_NEAR(code(linear, 0.875, 0.875), 150, rounding);
+  EXPECT_NEAR(code(linear, 1, 0.875), 75, rounding);
+  EXPECT_NEAR(code(linear, 1, 1), 37.5, rounding) << "a corner: three of four are the border";
+  EXPECT_NEAR(code(linear, 1.0625, 0.875), 150 / 4.0, rounding);
+  EXPECT_EQ(code(linear, 1.125, 0.875), 0);
+  EXPECT_NEAR(code(linear, 0, 0.875), 120 / 2.0, rounding);
+  EXPECT_EQ(code(linear, -0.125, 0.875), 0);
+  EXPECT_NEAR(code(linear, 0.875, 0), 30 / 2.0, rounding);
+}
+
 TEST(CpuTexture, LinearMixesFourTexelsByTheirDistance) {
   const auto levels = ramp();
   const MippedTexture t{levels, false, sampler(Wrap::clamp_to_edge, Filter::linear)};
