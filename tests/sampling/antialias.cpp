@@ -1,7 +1,6 @@
 #include "gpu/sampling/antialias.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
 
@@ -10,6 +9,7 @@
 #include "geometry/scene_io.h"
 #include "gpu/raster/renderer.h"
 #include "tests/chart.h"
+#include "tests/shared_data.h"
 #include "tests/stage.h"
 #include "tests/statistics.h"
 
@@ -74,15 +74,15 @@ void add_scene(gpu::Context& context, const std::string& name, const Scene& scen
 
 ChartData quality_for_time(gpu::Context& context) {
   ChartData data;
-  const char* root = std::getenv("PARITY_SHARED");
-  const std::filesystem::path folder = root != nullptr ? root : "../shared";
+  const std::filesystem::path source = PARITY_SOURCE_DIR;
+  add_scene(context, "sphere_grid.glb", load_scene(source / "assets/sphere_grid.glb"), true, data);
   const std::vector<std::pair<const char*, bool>> scenes{{"Fox/Fox.gltf", true},
                                                          {"2CylinderEngine.glb", true},
                                                          {"ManyCubes/many-cubes.gltf", true},
                                                          {"FlightHelmet/FlightHelmet.gltf", false}};
   for (const auto& [name, is_bound] : scenes)
-    if (const auto path = folder / "data/gltf" / name; std::filesystem::exists(path))
-      add_scene(context, name, load_scene(path), is_bound, data);
+    if (const auto path = shared_data(std::string("data/gltf/") + name))
+      add_scene(context, name, load_scene(*path), is_bound, data);
   data.settings = {{"picture", "1280x960"},
                    {"truth", "64 multi-jittered frames"},
                    {"time", "whole call with readback, median of 3, by turns"}};
