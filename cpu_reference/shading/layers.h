@@ -227,14 +227,14 @@ Gathered<Real> gather(const Surface<Real>& s, const Surroundings& around) {
           s.albedo.x, s.albedo.y};
 }
 
-/// Where the light that a sheen sends to the eye comes from in the mean, of any length: from the
+/// Where the light that a sheen sends to the eye comes from in the mean, a unit vector: from the
 /// eye's side of the normal, the lower the smoother the fibres are. The factor fits the mean
 /// direction of the lobe.
 template <class Real>
 Triple<Real> sheen_direction(const Surface<Real>& s) {
   const Triple<Real> aside = s.to_eye - s.normal * dot(s.normal, s.to_eye);
   const Real r = s.sheen_roughness;
-  return s.normal + aside * (rounded<Real>(0.24) / (r * square_root(r)));
+  return normalized(s.normal + aside * (rounded<Real>(0.24) / (r * square_root(r))));
 }
 
 /// The way of the eye's ray within a surface that light passes: refracted unless it is thin.

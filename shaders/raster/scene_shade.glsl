@@ -249,10 +249,10 @@ Streak streak(SceneArgs args, Layers y, vec3 n, vec3 v, float roughness) {
   return s;
 }
 
-// Where the light of a sheen comes from in the mean, of any length: fibres stand on end and send light
+// Where the light of a sheen comes from in the mean: fibres stand on end and send light
 // back, the more so the smoother they are. A fit to the lobe's mean direction.
 vec3 sheen_way(vec3 n, vec3 v, float roughness) {
-  return n + (v - n * dot(n, v)) * (0.24 / (roughness * sqrt(roughness)));
+  return unit_or_zero(n + (v - n * dot(n, v)) * (0.24 / (roughness * sqrt(roughness))));
 }
 
 // The way of the eye's ray within a surface that light passes.
