@@ -28,7 +28,8 @@ std::string test_name(const testing::TestParamInfo<std::string>& chart) {
 
 INSTANTIATE_TEST_SUITE_P(WithoutClock, ChartClaims,
                          testing::Values("sampling/alias_frequency", "sampling/edge_error",
-                                         "sampling/filter_error", "sampling/pattern_edge_error",
+                                         "sampling/filter_error", "sampling/filter_spectra",
+                                         "sampling/pattern_edge_error",
                                          "sampling/pattern_smooth_error", "sampling/temporal_error",
                                          "sampling/wagon_wheel", "sampling/zone_plate",
                                          "shading/irradiance_models", "shading/white_furnace",
