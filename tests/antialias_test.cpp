@@ -225,6 +225,29 @@ Scene crossing_sheets() {
   return scene;
 }
 
+/// Notes 1.8, read literally: four subsamples a pixel for coverage only. Each takes the nearest at
+/// the pixel's centre of the draws that cover the subsample; draw 0 is white, draw 1 is black.
+Grid<vec4> with_one_depth_a_pixel(const Scene& scene, const Frame& frame) {
+  const auto depths = [&](std::size_t draw, dvec2 shift) {
+    Frame alone = frame;
+    alone.draws = {frame.draws.at(draw)};
+    return cpu::render(scene, shifted(alone, shift), {.colors = false}).picture.depth;
+  };
+  const Grid<float> centers[] = {depths(0, {0, 0}), depths(1, {0, 0})};
+  Grid<vec4> picture(frame.options.width, frame.options.height, vec4(0));
+  for (const dvec2 place : {dvec2(-2, -6), dvec2(6, -2), dvec2(-6, 2), dvec2(2, 6)}) {
+    const Grid<float> there[] = {depths(0, -place / 16.0), depths(1, -place / 16.0)};
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+      const auto covers = [&](int k) { return there[k].values()[i] > 0; };
+      const auto depth = [&](int k) { return covers(k) ? centers[k].values()[i] : -1.0f; };
+      const bool white = covers(0) && depth(0) > depth(1);  // reversed: larger is nearer
+      const float sample = white ? 1.0f : covers(1) ? 0.0f : 0.5f;
+      picture.values()[i] += vec4(sample / 4);
+    }
+  }
+  return picture;
+}
+
 TEST(Antialiasing, MsaaTestsDepthAtEachSampleNotCoverageOnly) {
   if (!gpu::can_render(test_context().info())) GTEST_SKIP() << "skipped: the device cannot render";
   const Scene scene = crossing_sheets();
@@ -245,9 +268,14 @@ TEST(Antialiasing, MsaaTestsDepthAtEachSampleNotCoverageOnly) {
   };
   EXPECT_TRUE(antialiases_crossings(render("msaa4")));
   EXPECT_TRUE(antialiases_crossings(render("msaa8")));
-  // Notes 1.8, read literally: subsamples for coverage only, one depth a pixel. Where everything is
-  // covered that is a picture of one sample.
-  EXPECT_FALSE(antialiases_crossings(render("none")));
+  const auto antialiases_outlines = [](const Grid<vec4>& picture) {
+    return std::ranges::any_of(picture,
+                               [](const vec4& c) { return c.x != 0 && c.x != 0.5f && c.x != 1; });
+  };
+  const Grid<vec4> of_the_notes = with_one_depth_a_pixel(scene, frame);
+  EXPECT_TRUE(antialiases_outlines(of_the_notes));
+  EXPECT_FALSE(antialiases_outlines(render("none")));
+  EXPECT_FALSE(antialiases_crossings(of_the_notes));
 }
 
 TEST(Antialiasing, BothSidesAccumulateTheSamePicture) {
