@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstdlib>
 #include <eigen3/unsupported/Eigen/FFT>
 #include <functional>
 #include <numbers>
+#include <string>
 
 #include "cpu_reference/sampling/area_coverage.h"
 #include "cpu_reference/sampling/pattern.h"
@@ -15,12 +17,15 @@
 #include "cpu_reference/sampling/spectrum.h"
 #include "cpu_reference/sampling/temporal.h"
 #include "geometry/color.h"
+#include "geometry/image_io.h"
 #include "geometry/random.h"
 #include "gpu/sampling/area_coverage.h"
 #include "gpu/sampling/reconstruct.h"
 #include "gpu/sampling/spectrum.h"
 #include "gpu/sampling/temporal.h"
+#include "tests/gltf_builder.h"
 #include "tests/gpu_context.h"
+#include "tests/temporary_folder.h"
 
 namespace parity {
 namespace {
@@ -223,14 +228,51 @@ TEST(Filters, RingOnlyWithNegativeLobes) {
   EXPECT_FALSE(tells_ringing([](auto f) { return f == box || f == tent || f == gaussian; }));
 }
 
-TEST(Filters, ResolveInLinearLight) {
-  // Half of a pixel's samples white, half black: half the light, sRGB code 188, not 128.
-  Grid<vec4> samples{2, 2};
-  samples(0, 0) = samples(1, 1) = vec4(1);
-  const vec4 resolved =
-      gpu::reconstruct(test_context(), samples, {1, 1}, ReconstructionFilter::box)(0, 0);
-  EXPECT_NEAR(resolved.x, 0.5f, 1e-6f);
-  EXPECT_NEAR(255 * srgb_from_linear(resolved.x), 188, 0.5);
+/// A white square without light, from pixel 1.5 to pixel 6.5 of a picture of 8.
+std::vector<std::byte> half_covered_pixels() {
+  GltfBuilder gltf;
+  gltf.root["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 1}}}},
+                             {"extensions", {{"KHR_materials_unlit", nlohmann::json::object()}}}}};
+  gltf.root["extensionsUsed"] = {"KHR_materials_unlit"};
+  gltf.root["cameras"] = {
+      {{"type", "orthographic"},
+       {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0.5}, {"zfar", 2.5}}}}};
+  const float a = 0.625f;
+  const int places = gltf.accessor<float>({-a, -a, 0, a, -a, 0, a, a, 0, -a, a, 0}, "VEC3",
+                                          {{"min", {-a, -a, 0}}, {"max", {a, a, 0}}});
+  const int indices = gltf.accessor<std::uint32_t>({0, 1, 2, 0, 2, 3}, "SCALAR");
+  gltf.show({{"attributes", {{"POSITION", places}}}, {"indices", indices}, {"material", 0}});
+  gltf.root["nodes"].push_back({{"camera", 0}, {"translation", {0, 0, 1}}});
+  gltf.root["scenes"][0]["nodes"] = {0, 1};
+  return gltf.glb();
+}
+
+/// Half of a pixel white, half black: half the light, sRGB code 188; the mean of the codes is 128.
+/// A corner has a quarter: 137, not 64.
+TEST(WholePath, ResolvesInLinearLightAndEncodesAfterwards) {
+  EXPECT_NEAR(255 * srgb_from_linear(0.5), 188, 0.5);
+  EXPECT_NEAR(255 * srgb_from_linear(0.25), 137, 0.5);
+  const TemporaryFolder folder;
+  folder.write("square.glb", half_covered_pixels());
+  for (const std::string mode :
+       {"--msaa 4 --backend gpu", "--msaa 4 --backend cpu", "--aa ssaa4", "--aa accumulate4"}) {
+    const std::string command = "cd '" + folder.path().string() +
+                                "' && '" PARITY_PROGRAM
+                                "' render square.glb -o square.png --size 8x8 -q --tone-map none "
+                                "--background '#000000' " +
+                                mode;
+    ASSERT_EQ(std::system(command.c_str()), 0) << command;
+    const Grid<vec4> picture = load_image(folder.path() / "square.png");  // decoded
+    const auto code = [&](int x, int y) {
+      return std::lround(255 * srgb_from_linear(double(picture(x, y).x)));
+    };
+    EXPECT_EQ(code(0, 4), 0) << mode;
+    EXPECT_EQ(code(4, 4), 255) << mode;
+    for (const ivec2 side : {ivec2(1, 4), ivec2(6, 4), ivec2(4, 1), ivec2(4, 6)})
+      EXPECT_EQ(code(side.x, side.y), 188) << mode << ", " << side.x << " " << side.y;
+    for (const ivec2 corner : {ivec2(1, 1), ivec2(6, 1), ivec2(1, 6), ivec2(6, 6)})
+      EXPECT_EQ(code(corner.x, corner.y), 137) << mode << ", " << corner.x << " " << corner.y;
+  }
 }
 
 TEST(Filters, RefuseSizesThatDoNotExist) {
