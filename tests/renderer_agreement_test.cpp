@@ -74,14 +74,18 @@ Grid<vec4> lamp_and_sky() {
   return picture;
 }
 
-/// Brighter toward the top, bluer to the right of the middle: 1 + y, 1, 1 + x.
+/// Light of degree 2 at most, with a part of each polynomial in some channel.
 Grid<vec4> soft_sky() {
   Grid<vec4> picture{64, 32};
-  for (int y = 0; y < 32; ++y)
-    for (int x = 0; x < 64; ++x) {
-      const float theta = 3.1415927f * (float(y) + 0.5f) / 32;
-      const float phi = 3.1415927f * ((float(x) + 0.5f) / 32 - 1);
-      picture(x, y) = vec4(1 + std::cos(theta), 1, 1 + std::sin(theta) * std::sin(phi), 1);
+  for (int row = 0; row < 32; ++row)
+    for (int column = 0; column < 64; ++column) {
+      const float theta = 3.1415927f * (float(row) + 0.5f) / 32;
+      const float phi = 3.1415927f * ((float(column) + 0.5f) / 32 - 1);
+      const float x = std::sin(theta) * std::sin(phi), y = std::cos(theta);
+      const float z = -std::sin(theta) * std::cos(phi);
+      picture(column, row) =
+          vec4(1 + 0.5f * y + 0.3f * x * y + 0.2f * (3 * z * z - 1), 1 + 0.5f * z + 0.4f * y * z,
+               1 + 0.5f * x + 0.3f * x * z + 0.3f * (x * x - y * y), 1);
     }
   return picture;
 }
