@@ -34,10 +34,15 @@ BrdfProblem random_microfacets(const Setting& setting) {
   Random random{setting.seed};
   BrdfProblem p{{}, albedo_table()};
   const double alpha = std::pow(setting.at("roughness"), 2);
-  const double stretch = setting.at("anisotropy");
+  double stretch = setting.at("anisotropy");
   for (int i = 0; i < setting.count("count"); ++i) {
     BrdfQuery q = random_directions(random, brdf_ggx + std::uint32_t(setting.count("model")));
     q.fresnel = std::uint32_t(setting.count("fresnel"));
+    if (setting.count("mixed") != 0) {
+      q.model = brdf_ggx + random.below(3);
+      q.fresnel = random.below(3);
+      stretch = random.uniform();
+    }
     q.alpha = vec2(dvec2(alpha, alpha));
     if (q.model != brdf_ggx_multi_scatter) q.alpha.x = float(glm::mix(alpha, 1.0, stretch));
     if (q.model == brdf_ggx_multi_scatter) q.fresnel = fresnel_schlick;
@@ -117,7 +122,8 @@ const Registration microfacets = register_stage<BrdfProblem, std::vector<dvec3>>
              {.name = "model", .low = 0, .high = 2, .standard = 0, .whole = true, .each = true},
              {.name = "fresnel", .low = 0, .high = 2, .standard = 0, .whole = true, .each = true},
              {.name = "roughness", .low = 0.045, .high = 1, .standard = 0.4},
-             {.name = "anisotropy", .low = 0, .high = 1, .standard = 0}},
+             {.name = "anisotropy", .low = 0, .high = 1, .standard = 0},
+             {.name = "mixed", .low = 0, .high = 1, .standard = 0, .whole = true, .each = true}},
     .problem = random_microfacets,
     .cpu = on_the_host(),
     .gpu = on_the_device(),
