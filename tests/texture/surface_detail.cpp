@@ -1,5 +1,7 @@
 #include "cpu_reference/texture/surface_detail.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -144,52 +146,101 @@ double parallax_distance(const ParallaxProblem& p, const std::vector<dvec3>& got
   return worst;
 }
 
-const Registration parallax =
-    register_stage<ParallaxProblem, std::vector<dvec3>>({
-        .name = "texture/parallax",
-        .title = "Apparent depth: where rays meet a height field below a surface",
-        .source = "notes 6.3; Brawley & Tatarchuk 2004",
-        .rows = {118},
-        .axes = {{.name = "layers",
-                  .low = 1,
-                  .high = 128,
-                  .standard = 24,
-                  .logarithmic = true,
-                  .whole = true},
-                 {.name = "scale", .unit = "texture", .low = 0, .high = 0.2, .standard = 0.05}},
-        .problem = make_parallax,
-        .cpu = {{.solve =
-                     [](const ParallaxProblem& p) {
-                       std::vector<dvec3> hits;
-                       for (const ParallaxRay& ray : p.rays) {
-                         const cpu::ParallaxHit hit = cpu::parallax(
-                             p.heights, dvec2(ray.uv), dvec3(ray.to_eye), p.scale, p.layers);
-                         hits.emplace_back(hit.uv, hit.depth);
-                       }
-                       return hits;
-                     }}},
-        .gpu = {{.solve =
-                     [](gpu::Context& context, const ParallaxProblem& p) {
-                       return widened(gpu::parallax(context, p.heights, p.rays, p.scale, p.layers));
-                     }}},
-        .distance = parallax_distance,
-        .tolerance = 1.01,
-        .why =
-            "in steps of the bisection: one decision of it may fall the other way by rounding; a "
-            "layer at which the ray passes the field at less than 1e-4 (float places of up to 500 "
-            "texels, slopes of up to 0.1 a texel) may be taken or not",
-        .error =
-            [](const ParallaxProblem& p, const std::vector<dvec3>& hits) {
-              double sum = 0;
-              for (std::size_t i = 0; i < hits.size(); ++i)
-                sum += std::abs(hits[i].z - cpu::parallax(p.heights, dvec2(p.rays[i].uv),
-                                                          dvec3(p.rays[i].to_eye), p.scale, 1024)
-                                                .depth);
-              return sum / double(hits.size());
-            },
-        .error_unit = "depth",
-        .chart_axes = {"layers"},
-    });
+/// Where the ray first meets the field, exactly: between lines through texels' centres the field
+/// along the ray is a parabola, by its values at both ends and in the middle. 1 if it does not.
+double exact_depth(const ParallaxProblem& p, const ParallaxRay& ray) {
+  const dvec2 size{p.heights.width(), p.heights.height()};
+  const dvec2 from = dvec2(ray.uv) * size - 0.5;
+  const dvec2 way = -dvec2(ray.to_eye) / double(ray.to_eye.z) * double(p.scale) * size;
+  const auto above = [&](double t) {  // the field's depth, less the ray's
+    const dvec2 place = from + way * t, cell = glm::floor(place), share = place - cell;
+    double depth = 0;
+    for (int corner = 0; corner < 4; ++corner) {
+      const ivec2 step{corner & 1, corner >> 1}, texel = ivec2(cell) + step;
+      const int x = (texel.x % 64 + 64) % 64, y = (texel.y % 48 + 48) % 48;
+      depth += (step.x ? share.x : 1 - share.x) * (step.y ? share.y : 1 - share.y) *
+               (1 - p.heights(x, y).x / 255.0);
+    }
+    return depth - t;
+  };
+  std::vector<double> lines{0, 1};
+  for (int axis = 0; axis < 2; ++axis)
+    for (double line = std::ceil(std::min(from[axis], from[axis] + way[axis]));
+         line < std::max(from[axis], from[axis] + way[axis]); ++line)
+      lines.push_back((line - from[axis]) / way[axis]);
+  std::ranges::sort(lines);
+  for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+    const double begin = lines[i], length = lines[i + 1] - begin;
+    const double f0 = above(begin), f1 = above(begin + length / 2), f2 = above(begin + length);
+    if (f0 <= 0) return begin;
+    const double b = 4 * f1 - 3 * f0 - f2, c = 2 * (f0 + f2 - 2 * f1);  // f0 + b s + c s^2
+    const double squared = b * b - 4 * c * f0;
+    const double s = squared < 0 ? 2 : 2 * f0 / (-b + std::copysign(std::sqrt(squared), -b));
+    const double other = squared < 0 || c == 0 ? 2 : f0 / (c * s);
+    for (const double root : {std::min(s, other), std::max(s, other)})
+      if (root >= 0 && root <= 1) return begin + root * length;
+  }
+  return 1;
+}
+
+/// Layers may miss a crossing, never find one before the first; and the first is one.
+TEST(Parallax, LayersFindNothingBeforeTheFirstCrossing) {
+  std::vector<Axis> axes{{.name = "scale", .standard = 0.1}, {.name = "layers", .standard = 24}};
+  const ParallaxProblem p = make_parallax(Setting(axes));
+  for (const ParallaxRay& ray : p.rays) {
+    const double first = exact_depth(p, ray);
+    const dvec2 way = -dvec2(ray.to_eye) / double(ray.to_eye.z) * double(p.scale);
+    // Depths to 1e-12: places of up to 600 texels in double.
+    if (first < 1) {
+      EXPECT_NEAR(cpu::depth_at(p.heights, dvec2(ray.uv) + way * first), first, 1e-12);
+    }
+    const auto hit = cpu::parallax(p.heights, dvec2(ray.uv), dvec3(ray.to_eye), p.scale, 24);
+    EXPECT_LE(first, hit.depth + 1 / 24.0 / 256);
+  }
+}
+
+const Registration parallax = register_stage<ParallaxProblem, std::vector<dvec3>>({
+    .name = "texture/parallax",
+    .title = "Apparent depth: where rays meet a height field below a surface",
+    .source = "notes 6.3; Brawley & Tatarchuk 2004",
+    .rows = {118},
+    .axes = {{.name = "layers",
+              .low = 1,
+              .high = 128,
+              .standard = 24,
+              .logarithmic = true,
+              .whole = true},
+             {.name = "scale", .unit = "texture", .low = 0, .high = 0.2, .standard = 0.05}},
+    .problem = make_parallax,
+    .cpu = {{.solve =
+                 [](const ParallaxProblem& p) {
+                   std::vector<dvec3> hits;
+                   for (const ParallaxRay& ray : p.rays) {
+                     const cpu::ParallaxHit hit = cpu::parallax(
+                         p.heights, dvec2(ray.uv), dvec3(ray.to_eye), p.scale, p.layers);
+                     hits.emplace_back(hit.uv, hit.depth);
+                   }
+                   return hits;
+                 }}},
+    .gpu = {{.solve =
+                 [](gpu::Context& context, const ParallaxProblem& p) {
+                   return widened(gpu::parallax(context, p.heights, p.rays, p.scale, p.layers));
+                 }}},
+    .distance = parallax_distance,
+    .tolerance = 1.01,
+    .why = "in steps of the bisection: one decision of it may fall the other way by rounding; a "
+           "layer at which the ray passes the field at less than 1e-4 (float places of up to 500 "
+           "texels, slopes of up to 0.1 a texel) may be taken or not",
+    .error =
+        [](const ParallaxProblem& p, const std::vector<dvec3>& hits) {
+          double sum = 0;
+          for (std::size_t i = 0; i < hits.size(); ++i)
+            sum += std::abs(hits[i].z - exact_depth(p, p.rays[i]));
+          return sum / double(hits.size());
+        },
+    .error_unit = "depth",
+    .chart_axes = {"layers"},
+});
 
 struct Directions {
   Grid<vec4> picture;
