@@ -460,6 +460,58 @@ TEST(PerlinNoise, IsThePublishedFunction) {
     EXPECT_EQ(cpu::procedural(Procedural::perlin, p), 0);
 }
 
+/// At whole points every octave is 0, at halves all but the first are, at quarters all but two.
+TEST(Fractals, EndWhereTheirOctavesMeetTheLattice) {
+  for (const dvec3 whole : {dvec3(0), dvec3(-3, 200, 17), dvec3(5, -6, 1)}) {
+    EXPECT_EQ(cpu::procedural(Procedural::fractal, whole), 0);
+    EXPECT_EQ(cpu::procedural(Procedural::turbulence, whole), 0);
+    EXPECT_NEAR(cpu::procedural(Procedural::marble, whole), 0.5, 1e-13);
+    const auto noise = [](dvec3 p) { return cpu::procedural(Procedural::perlin, p); };
+    for (const dvec3 part : {dvec3(0.5), dvec3(0.5, 0, 0.5), dvec3(0.25, 0.5, 0.75)}) {
+      const dvec3 p = whole + part;
+      EXPECT_NEAR(cpu::procedural(Procedural::fractal, p), noise(p) + noise(2.0 * p) / 2, 1e-15);
+      EXPECT_NEAR(cpu::procedural(Procedural::turbulence, p),
+                  std::abs(noise(p)) + std::abs(noise(2.0 * p)) / 2, 1e-15);
+    }
+  }
+  EXPECT_NEAR(cpu::procedural(Procedural::wood, {0, 4, 1}), 0, 1e-13);
+  EXPECT_NEAR(cpu::procedural(Procedural::wood, {3, 4, 0}), 0, 1e-13);
+}
+
+/// Octaves are as good as independent: their variances add up, 1 + 1/4 + 1/16 ..
+TEST(Fractals, HaveTheVarianceOfTheirOctaves) {
+  Random random{12};
+  double noise = 0, fractal = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const dvec3 p{random.uniform(0, 256), random.uniform(0, 256), random.uniform(0, 256)};
+    noise += std::pow(cpu::procedural(Procedural::perlin, p), 2);
+    const double sum = cpu::procedural(Procedural::fractal, p);
+    fractal += sum * sum;
+    EXPECT_GE(cpu::procedural(Procedural::turbulence, p), std::abs(sum));
+  }
+  const double want = (1 - std::pow(0.25, procedural_octaves)) / (1 - 0.25);
+  // A ratio of two sums of 20000 squares of about normal numbers: 5 times sqrt(2 / 20000 2).
+  EXPECT_NEAR(fractal / noise, want, 5 * std::sqrt(4.0 / 20000) * want);
+}
+
+TEST(Projection, PlanarAndCylindricalHaveTheirClosedForms) {
+  const auto uv = [](Projection kind, dvec3 p) { return cpu::project(kind, p).uv; };
+  const auto expect = [&](Projection kind, dvec3 p, dvec2 want) {
+    EXPECT_LT(glm::distance(uv(kind, p), want), 1e-15) << p.x << " " << p.y << " " << p.z;
+  };
+  // The square from -1 to 1, v down; depth does not count.
+  expect(Projection::planar, {-1, 1, 5}, {0, 0});
+  expect(Projection::planar, {1, -1, -3}, {1, 1});
+  expect(Projection::planar, {0.5, 0.25, 0}, {0.75, 0.375});
+  // Around the y axis from +z over -x, -z (the middle) and +x; the distance does not count.
+  expect(Projection::cylindrical, {0, 0, -1}, {0.5, 0.5});
+  expect(Projection::cylindrical, {3, 1, 0}, {0.75, 0});
+  expect(Projection::cylindrical, {-0.2, -1, 0}, {0.25, 1});
+  expect(Projection::cylindrical, {2, 0.5, -2}, {0.625, 0.25});
+  expect(Projection::cylindrical, {2, 0.5, 2}, {0.875, 0.25});
+  expect(Projection::cylindrical, {-2, 0.5, 2}, {0.125, 0.25});
+}
+
 TEST(Projection, RoundTripsDirections) {
   Random random{2};
   for (int i = 0; i < 200; ++i) {
@@ -518,6 +570,48 @@ TEST(Parallax, MeetsAFlatFieldWhereGeometrySays) {
   EXPECT_NEAR(hit.depth, 0.8, step);
   EXPECT_NEAR(hit.uv.x, 0.3 - 0.8 * 0.1 * 0.75, 0.075 * step);
   EXPECT_EQ(cpu::parallax(field, {0.3, 0.4}, {0, 0, 1}, 0.1, 16).uv.x, 0.3);
+}
+
+/// A ramp: depth 1 - (256 u - 1/2) / 255. The ray's depth t is the field's at u + way t.
+TEST(Parallax, MeetsARampWhereGeometrySays) {
+  Grid<u8vec4> ramp{256, 2};
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 256; ++x) ramp(x, y) = u8vec4(x);
+  for (const double lean : {-0.75, -0.2, 0.4, 0.75})
+    for (const double u : {0.35, 0.5, 0.65}) {
+      const double scale = 0.2, way = -scale * lean;
+      const double depth = (1 - (256 * u - 0.5) / 255) / (1 + 256 * way / 255);
+      for (const int layers : {16, 100}) {
+        const cpu::ParallaxHit hit = cpu::parallax(ramp, {u, 0.3}, {lean, 0, 1}, scale, layers);
+        EXPECT_NEAR(hit.depth, depth, 1 / 256.0 / layers) << lean << " " << u;
+        EXPECT_NEAR(hit.uv.x, u + way * depth, std::abs(way) / 256 / layers);
+        EXPECT_EQ(hit.uv.y, 0.3);
+      }
+    }
+}
+
+/// Half of a cylinder's top, of radius 1 around u = 1/2: heights (sqrt(1 - x^2) - low) / (1 - low),
+/// low = sqrt(3) / 2 at the sides, x = u - 1/2.
+TEST(Parallax, MeetsACylinderWhereGeometrySays) {
+  const double low = std::sqrt(0.75), high = 1 - low;
+  Grid<u8vec4> field{256, 2};
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 256; ++x) {
+      const double c = (x + 0.5) / 256 - 0.5;
+      field(x, y) = u8vec4(std::uint8_t(std::lround(255 * (std::sqrt(1 - c * c) - low) / high)));
+    }
+  for (const double way : {-0.1, -0.03, 0.05, 0.1})
+    for (const double u : {0.3, 0.45, 0.5, 0.62}) {
+      // (1 - t) high + low = sqrt(1 - (x + way t)^2), squared.
+      const double x = u - 0.5, a = high * high + way * way, b = x * way - high, c = x * x;
+      const double depth = (-b - std::sqrt(b * b - a * c)) / a;
+      const cpu::ParallaxHit hit = cpu::parallax(field, {u, 0.3}, {-way, 0, 0.1}, 0.1, 64);
+      // The field is off by half a code and by a chord's sag, 11.5 / 8 / 256^2; the ray meets it
+      // where its depth and that of the field, of slope below 4.4 way, change places.
+      const double error = 0.5 / 255 + 2.2e-5;
+      EXPECT_NEAR(hit.depth, depth, error / (1 - 4.4 * std::abs(way)) + 1 / 256.0 / 64)
+          << way << " " << u;
+    }
 }
 
 /// A square of 3x3 squares in x and z, displaced along y; seen so that factors differ.
