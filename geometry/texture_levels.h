@@ -15,19 +15,18 @@ struct LevelRange {
 };
 
 /// The levels of each image of a scene that any pixel of a frame may read, by bounds of the
-/// footprints of its triangles: a few more than are, never fewer. All levels where that is in
-/// doubt: of alpha masks (shadow maps read them from elsewhere too), of what is nearer than the
-/// near plane, of triangles too slender to tell.
+/// footprints of its triangles (footprint_bounds): a few more than are, never fewer. All levels of
+/// alpha masks (shadow maps read them from elsewhere too), of lines and of points; the full size of
+/// what has no or constant texture coordinates, for there a sampler magnifies.
 ///
-/// A footprint is at least as long as two rays a pixel apart are apart at the nearest corner, and
-/// its minor half axis too where the distance hardly changes within a pixel, else an eighth (or
-/// whatever the sampler follows) of it. It is at most the norm of the homography's derivative,
-/// which is largest at a corner.
+/// Devices are taken to interpolate what their vertices say once these are on a grid of 1/256 px
+/// (subPixelPrecisionBits of 8); what is more than that off may read the nearest level that is
+/// kept.
 ///
-/// @param frame  moved by up to a pixel it reads no other levels.
+/// @param moves  the frame may be moved by up to a pixel: what is between the samples counts too.
 /// @return       one an image, levels counted from 0, the full size.
 ///
-/// Source: Vulkan 1.3, "Scale Factor Operation, Level-of-Detail"; Heckbert 1989 (derivatives).
-std::vector<LevelRange> read_levels(const Scene& scene, const Frame& frame);
+/// Source: Vulkan 1.3, "Scale Factor Operation, Level-of-Detail".
+std::vector<LevelRange> read_levels(const Scene& scene, const Frame& frame, bool moves = false);
 
 }  // namespace parity

@@ -1,9 +1,15 @@
-#include <algorithm>
-#include <functional>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "geometry/scene_io.h"
 #include "geometry/texture_levels.h"
 #include "gpu/raster/renderer.h"
 #include "tests/chart.h"
+#include "tests/shared_data.h"
 #include "tests/texture/textured_square.h"
 
 /// What leaving out the texture levels that no pixel reads saves.
@@ -64,6 +70,60 @@ ChartData costs(gpu::Context& context, bool in_seconds) {
   data.settings = {{"scene", "a square of 2 m with 1024 x 1024 texels, 256 x 256 px, 23 degrees"}};
   return data;
 }
+
+struct NamedScene {
+  std::string name;
+  Scene scene;
+};
+
+/// Scenes of others where they are at hand, and one that is made.
+std::vector<NamedScene> textured_scenes() {
+  std::vector<NamedScene> scenes;
+  scenes.push_back({"ball", texture_test::textured_ball(512)});
+  scenes.push_back(
+      {"demo", load_scene(std::filesystem::path(PARITY_SOURCE_DIR) / "assets/demo.glb")});
+  for (const char* name : {"Fox", "FlightHelmet", "TextureSettingsTest", "AnisotropyBarnLamp"})
+    if (const auto file = shared_data(fmt::format("data/gltf/{0}/{0}.gltf", name)))
+      scenes.push_back({name, load_scene(*file)});
+  for (NamedScene& scene : scenes)
+    for (Texture& t : scene.scene.textures) t.sampler.max_anisotropy = default_max_anisotropy;
+  return scenes;
+}
+
+ChartData shares_of_scenes(gpu::Context& context) {
+  ChartData data;
+  for (const NamedScene& named : textured_scenes()) {
+    Series series{.name = named.name, .points = {}};
+    for (const int width : {48, 96, 192, 384, 768}) {
+      const Frame frame =
+          make_frame(named.scene, {.width = width, .height = width * 2 / 3, .samples = 4});
+      const auto bytes = [&](std::vector<LevelRange> levels) {
+        return double(
+            gpu::Renderer(context, named.scene, {}, std::move(levels)).render(frame).memory_bytes);
+      };
+      // What is no texture is the same in both.
+      const double none = bytes(std::vector<LevelRange>(named.scene.images.size()));
+      const double all = bytes({}) - none;
+      series.points.push_back(
+          {double(width), (bytes(read_levels(named.scene, frame)) - none) / all});
+    }
+    if (named.name != "demo")
+      data.assertions.push_back({.what = "share of " + named.name + " that 48 px read",
+                                 .value = series.points[0].y,
+                                 .bound = 0.3});
+    data.series.push_back(std::move(series));
+  }
+  data.settings = {{"samples", "4"}, {"most anisotropy", "8"}};
+  return data;
+}
+
+const Registration scenes_chart = register_chart({
+    .name = "texture/levels_scenes",
+    .title = "Share of scenes' textures that is made for a picture",
+    .x = {.label = "width of the picture", .unit = "px", .logarithmic = true},
+    .y = {.label = "bytes of the levels that are read, of all"},
+    .produce = shares_of_scenes,
+});
 
 const Registration bytes_chart = register_chart({
     .name = "texture/levels_bytes",

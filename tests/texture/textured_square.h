@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
+#include <numbers>
 
 #include "geometry/random.h"
 #include "geometry/scene.h"
@@ -39,6 +41,33 @@ inline Scene textured_square(int side, double depth, const Sampler& sampler) {
   square.uvs = {{{0, 1}, {1, 1}, {1, 0}, {0, 0}}};
   square.indices = {0, 1, 2, 0, 2, 3};
   scene.meshes = {{"", {square}}};
+  return scene;
+}
+
+/// The same with a ball of 0.9 m, 48 x 96 faces, one texture around it.
+inline Scene textured_ball(int side) {
+  Scene scene = textured_square(side, 0, {.max_anisotropy = default_max_anisotropy});
+  scene.materials[0].double_sided = false;
+  Primitive ball;
+  ball.material = 0;
+  ball.uvs.resize(1);
+  constexpr int rows = 48, columns = 96;
+  for (int i = 0; i <= rows; ++i)
+    for (int j = 0; j <= columns; ++j) {
+      const double polar = std::numbers::pi * i / rows;
+      const double around = 2 * std::numbers::pi * j / columns;
+      const vec3 n(std::sin(polar) * std::sin(around), std::cos(polar),
+                   std::sin(polar) * std::cos(around));
+      ball.positions.push_back(0.9f * n);
+      ball.normals.push_back(n);
+      ball.uvs[0].emplace_back(float(j) / columns, float(i) / rows);
+    }
+  for (std::uint32_t i = 0; i < rows; ++i)
+    for (std::uint32_t j = 0; j < columns; ++j) {
+      const std::uint32_t a = i * (columns + 1) + j, b = a + columns + 1;
+      for (const std::uint32_t v : {a, b, b + 1, a, b + 1, a + 1}) ball.indices.push_back(v);
+    }
+  scene.meshes = {{"", {ball}}};
   return scene;
 }
 
