@@ -95,6 +95,10 @@ void LevelRange::join(const LevelRange& other) {
   greatest = std::max(greatest, other.greatest);
 }
 
+void join(std::vector<LevelRange>& levels, const std::vector<LevelRange>& others) {
+  for (std::size_t i = 0; i < levels.size(); ++i) levels[i].join(others[i]);
+}
+
 std::vector<LevelRange> read_levels(const Scene& scene, const Frame& frame, bool moves) {
   const ShadingView view(frame, moves);
   std::vector<LevelRange> levels(scene.images.size());

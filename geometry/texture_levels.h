@@ -29,4 +29,7 @@ struct LevelRange {
 /// Source: Vulkan 1.3, "Scale Factor Operation, Level-of-Detail".
 std::vector<LevelRange> read_levels(const Scene& scene, const Frame& frame, bool moves = false);
 
+/// What either reads, image by image.
+void join(std::vector<LevelRange>& levels, const std::vector<LevelRange>& others);
+
 }  // namespace parity

@@ -10,6 +10,7 @@
 #include "geometry/jitter.h"
 #include "geometry/random.h"
 #include "geometry/scene_io.h"
+#include "gpu/sampling/antialias.h"
 #include "tests/renderer_scene.h"
 #include "tests/shared_data.h"
 #include "tests/texture/textured_square.h"
@@ -153,6 +154,21 @@ TEST_F(GpuRenderer, LevelsOfOddTrianglesAreNotMissed) {
           int(std::ranges::count_if(levels, [](const LevelRange& r) { return r.least > 0; }));
     }
   EXPECT_GT(left_out, 9 * 30) << "of 9 times 120";
+}
+
+TEST_F(GpuRenderer, AntialiasedPicturesReadNoOtherLevels) {
+  Random random{13};
+  const Scene scene = odd_triangles(random, 120, {.max_anisotropy = 8});
+  const Frame frame = make_frame(scene, {.width = 40, .height = 33});
+  const std::vector<dvec2> shifts{{-0.4, 0.1}, {0.3, -0.45}, {0.1, 0.4}};
+  gpu::Antialiaser all(test_context(), scene);
+  gpu::Antialiaser moved(test_context(), scene, read_levels(scene, frame, true));
+  EXPECT_EQ(moved.accumulate(frame, shifts).color, all.accumulate(frame, shifts).color);
+  EXPECT_EQ(moved.adaptive(frame, 0.04f, 1).color, all.adaptive(frame, 0.04f, 1).color);
+  std::vector<LevelRange> levels(scene.images.size());
+  for (const dvec2& shift : shifts) join(levels, read_levels(scene, shifted(frame, shift)));
+  gpu::Antialiaser these(test_context(), scene, levels);
+  EXPECT_EQ(these.accumulate(frame, shifts).color, all.accumulate(frame, shifts).color);
 }
 
 TEST(ReadLevels, LeaveOutTheFullSizeOfThinTrianglesAndThoseBetweenSamples) {

@@ -10,6 +10,7 @@
 #include "cpu_reference/sampling/reconstruct.h"
 #include "geometry/flip.h"
 #include "geometry/jitter.h"
+#include "geometry/texture_levels.h"
 #include "gpu/raster/renderer.h"
 #include "gpu/sampling/antialias.h"
 #include "gpu/sampling/reconstruct.h"
@@ -113,16 +114,20 @@ class Device {
         return picture;
       }
       case Kind::accumulate:
-        return antialiaser().accumulate(with_samples(scene_, frame_, 1), shifts_of(mode.samples));
+        return antialiaser(mode).accumulate(with_samples(scene_, frame_, 1),
+                                            shifts_of(mode.samples));
       case Kind::adaptive:
-        return antialiaser().adaptive(with_samples(scene_, frame_, 1), adaptive_contrast, gain_);
+        return antialiaser(mode).adaptive(with_samples(scene_, frame_, 1), adaptive_contrast,
+                                          gain_);
       default:
-        if (!renderer_) renderer_.emplace(context_, scene_);
+        if (!renderer_)
+          renderer_.emplace(context_, scene_, gpu::RenderOptions{}, still_levels(mode.samples));
         return renderer_->render(with_samples(scene_, frame_, mode.samples));
     }
   }
 
   Antialiased choose(double max_error) {
+    chooses_ = true;
     const Grid<vec4> truth = shown(render({.kind = Kind::accumulate, .samples = 64}));
     Antialiased best;
     best.meets = false;
@@ -152,9 +157,29 @@ class Device {
             {.kind = Kind::accumulate, .samples = 8}, {.kind = Kind::accumulate, .samples = 16}};
   }
 
-  gpu::Antialiaser& antialiaser() {
-    if (!antialiaser_) antialiaser_.emplace(context_, scene_);
+  /// Of what the first mode reads, or, where several are tried, of all.
+  gpu::Antialiaser& antialiaser(const Antialiasing& mode) {
+    if (!antialiaser_) antialiaser_.emplace(context_, scene_, moved_levels(mode));
     return *antialiaser_;
+  }
+
+  std::vector<LevelRange> still_levels(int samples) const {
+    if (!chooses_) return read_levels(scene_, with_samples(scene_, frame_, samples));
+    std::vector<LevelRange> levels = read_levels(scene_, with_samples(scene_, frame_, 1));
+    for (const int more : {2, 4, 8})
+      join(levels, read_levels(scene_, with_samples(scene_, frame_, more)));
+    return levels;
+  }
+
+  std::vector<LevelRange> moved_levels(const Antialiasing& mode) const {
+    constexpr int most_looked_at = 16;
+    const Frame one = with_samples(scene_, frame_, 1);
+    if (chooses_ || mode.kind != Kind::accumulate || mode.samples > most_looked_at)
+      return read_levels(scene_, one, true);
+    std::vector<LevelRange> levels(scene_.images.size());
+    for (const dvec2& shift : shifts_of(mode.samples))
+      join(levels, read_levels(scene_, shifted(one, shift)));
+    return levels;
   }
 
   Grid<vec4> shown(const Picture& picture) const {
@@ -169,6 +194,7 @@ class Device {
   const Frame& frame_;
   const Screen& screen_;
   float gain_;
+  bool chooses_ = false;
   std::optional<gpu::Renderer> renderer_;
   std::optional<gpu::Antialiaser> antialiaser_;
 };

@@ -4,6 +4,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geometry/jitter.h"
@@ -162,10 +163,10 @@ struct Target {
 }  // namespace
 
 struct Antialiaser::State {
-  State(Context& device, const Scene& scene)
+  State(Context& device, const Scene& scene, std::vector<LevelRange> levels)
       : context(device),
         bytes_before(device.memory_bytes()),
-        buffers(device, scene),
+        buffers(device, scene, std::move(levels)),
         blended(scene),
         pipelines(device, buffers, {}),
         sum(device, shaders::sampling_frame_sum_comp),
@@ -308,8 +309,8 @@ Picture Antialiaser::State::finish(const Frame& frame, const SceneFrame& data,
   return picture;
 }
 
-Antialiaser::Antialiaser(Context& context, const Scene& scene)
-    : state_(std::make_unique<State>(checked(context), scene)) {}
+Antialiaser::Antialiaser(Context& context, const Scene& scene, std::vector<LevelRange> levels)
+    : state_(std::make_unique<State>(checked(context), scene, std::move(levels))) {}
 Antialiaser::~Antialiaser() = default;
 Antialiaser::Antialiaser(Antialiaser&&) noexcept = default;
 Antialiaser& Antialiaser::operator=(Antialiaser&&) noexcept = default;

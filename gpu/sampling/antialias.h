@@ -2,9 +2,11 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "geometry/frame.h"
 #include "geometry/scene.h"
+#include "geometry/texture_levels.h"
 #include "gpu/core/context.h"
 
 namespace parity::gpu {
@@ -14,8 +16,10 @@ namespace parity::gpu {
 /// Source: notes 1.8; Haeberli & Akeley 1990 (accumulation); Mitchell 1987 (adaptive).
 class Antialiaser {
  public:
+  /// @param levels  what the frames to come read of each image, wherever they are moved to
+  ///                (read_levels); none: all.
   /// @throws Error  the scene does not fit the device.
-  Antialiaser(Context& context, const Scene& scene);
+  Antialiaser(Context& context, const Scene& scene, std::vector<LevelRange> levels = {});
   ~Antialiaser();
   Antialiaser(Antialiaser&&) noexcept;
   Antialiaser& operator=(Antialiaser&&) noexcept;
@@ -33,7 +37,8 @@ class Antialiaser {
   /// them.
   ///
   /// @param frame     1 sample a pixel.
-  /// @param contrast  of gamma-2 display values of any channel or of alpha, 0 to 1; pixels with more
+  /// @param contrast  of gamma-2 display values of any channel or of alpha, 0 to 1; pixels with
+  /// more
   ///                  are refined.
   /// @param gain      of the display, linear.
   /// @return          colour only.
