@@ -227,7 +227,8 @@ TEST(SimVerb, WrongUsageIsOneLineAndExitCode2) {
   for (const std::string& line :
        {program + "none.json -o out", program + "bad.json -o out", program + "thin.json -o out",
         program + "small.json", good + "--resume", good + "--frames 3", good + "--formats gif",
-        good + "--size 0x7"}) {
+        good + "--size 0x7", good + "--device 0", good + "--duration nan",
+        good + "--checkpoint-seconds nan"}) {
     const auto [code, output] = shell(folder, line);
     EXPECT_EQ(code, 2) << line << ": " << output;
     EXPECT_EQ(std::count(output.begin(), output.end(), '\n'), 1) << output;

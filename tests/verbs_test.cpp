@@ -6,8 +6,11 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
+#include <utility>
 
 #include "cpu_reference/sampling/reconstruct.h"
 #include "geometry/atomic_file.h"
@@ -71,6 +74,53 @@ TEST_F(Verbs, SpectrumFindsTheAliasOfAGrating) {
             std::string::npos);
 }
 
+TEST_F(Verbs, SpectrumSaysWhatItCanAndNoMore) {
+  const std::string half = run_for_output("spectrum --grating 0.5,0 --size 64").output;
+  EXPECT_NE(half.find("looks like (0.5, 0), as strong or faint as its phase has it"),
+            std::string::npos);
+  EXPECT_NE(half.find("no frequency but 0"), std::string::npos) << "samples fall on its zeros";
+  const std::string none = run_for_output("spectrum --grating 0.3,0 --size 64 --peaks 0").output;
+  EXPECT_EQ(none.find("no frequency"), std::string::npos);
+  const nlohmann::json json = nlohmann::json::parse(
+      run_for_output("spectrum --grating 0.75,1.25 --size 64 --scale 2 --json").output);
+  // Half of these a pixel after scaling.
+  EXPECT_EQ(json.at("grating"), (nlohmann::json{0.375, 0.625}));
+  EXPECT_EQ(json.at("looks_like"), (nlohmann::json{0.375, -0.375}));
+}
+
+TEST_F(Verbs, NoNumberIsRefusedWhereverOneIsAsked) {
+  const std::string scene = "'" PARITY_SOURCE_DIR "/assets/demo.glb'";
+  for (const std::string value : {"nan", "-nan", "inf", "1e999", "x"}) {
+    expect_one_line("render " + scene + " -o a.png --exposure " + value, 2);
+    expect_one_line("render " + scene + " -o a.png --aa auto --max-error " + value, 2);
+    expect_one_line("diff a.png a.png --max-error " + value, 2);
+    expect_one_line("diff a.png a.png --pixels-per-degree " + value, 2);
+    expect_one_line("check nothing --timeout " + value, 2);
+  }
+  expect_one_line("render " + scene + " -o a.png --backend cpu --device 0", 2);
+  expect_one_line("render", 2);
+  expect_one_line("render " + scene + " --no-such-option", 2);
+}
+
+TEST_F(Verbs, RenderSaysHowManySamplesItTook) {
+  const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  write_file_atomically(file("a.obj"), std::as_bytes(std::span(text)));
+  const std::string scene = "render a.obj --size 16x16 -o a.png ";
+  const std::array<std::pair<const char*, int>, 6> modes{{{"--backend cpu", 4},
+                                                          {"--backend cpu --msaa 8", 8},
+                                                          {"--backend cpu --aa none", 1},
+                                                          {"--backend cpu --aa ssaa9", 9},
+                                                          {"--backend cpu --aa accumulate3", 3},
+                                                          {"--aa adaptive", 16}}};
+  for (const auto& [mode, samples] : modes) {
+    ASSERT_EQ(run_for_output(scene + mode + " --metrics m.json").exit_code, 0) << mode;
+    std::ifstream metrics(file("m.json"));
+    EXPECT_EQ(nlohmann::json::parse(metrics).at("samples"), samples) << mode;
+  }
+  EXPECT_NE(run_for_errors(scene + "-v --backend cpu --aa none").output.find(" 1 samples"),
+            std::string::npos);
+}
+
 TEST_F(Verbs, SpectrumShowsThatAFilterTakesAwayWhatWouldAlias) {
   const auto strongest = [&](const std::string& filter) {
     const Answer answer = run_for_output(
@@ -108,6 +158,11 @@ TEST_F(Verbs, SpectrumRefusesInOneLine) {
   expect_one_line("spectrum --zone-plate 1 -o s.jpg", 2);
   expect_one_line("spectrum --zone-plate 1 --size 4096 --scale 2", 2);
   expect_one_line("spectrum --zone-plate 1 -o missing/s.png", 5);
+  expect_one_line("spectrum --zone-plate nan", 2);
+  expect_one_line("spectrum --zone-plate 1 --scale nan", 2);
+  expect_one_line("spectrum --zone-plate 1 --filter box", 2);
+  expect_one_line("spectrum s.png --size 64", 2);
+  expect_one_line("spectrum --zone-plate 1 --backend cpu --device 0", 2);
 }
 
 TEST_F(Verbs, DiffMeasuresAndJudges) {

@@ -6,6 +6,7 @@
 #include "geometry/atomic_file.h"
 #include "tools/check_runner.h"
 #include "tools/junit.h"
+#include "tools/options.h"
 #include "tools/progress.h"
 #include "tools/replay.h"
 #include "tools/verb.h"
@@ -157,7 +158,7 @@ void add_check_verb(CLI::App& app, int& exit_code) {
   verb->add_flag("--list", options->list, "Print the names of the checks and run none");
   verb->add_option("--shard", options->shard, "K/N: run every N-th check from the K-th");
   verb->add_option("--timeout", options->run.timeout_seconds, "Seconds that one check may take")
-      ->check(CLI::PositiveNumber);
+      ->check(within(1e-3, 1e6));
   verb->add_option("--setting", options->settings, "AXIS=VALUE: one check a stage at this setting");
   verb->add_option("--seed", options->seed, "Seed of random problems");
   verb->add_option("-o,--output", options->run.folder, "Folder for the files of failures");

@@ -11,6 +11,7 @@
 #include "geometry/image_io.h"
 #include "geometry/input_error.h"
 #include "geometry/picture_difference.h"
+#include "tools/options.h"
 #include "tools/verb.h"
 
 namespace parity::tools {
@@ -147,12 +148,13 @@ void add_diff_verb(CLI::App& app, int& exit_code) {
   verb->add_flag("--json", options->json, "Machine-readable output");
   verb->add_option("-o,--output", options->output,
                    "Write the FLIP of each pixel as a PNG: black 0, violet, red, yellow 1");
-  verb->add_option("--max-error", options->max_error, "Exit with 1 if the metric is above this");
+  verb->add_option("--max-error", options->max_error, "Exit with 1 if the metric is above this")
+      ->check(within(-1e9, 1e9));
   verb->add_option("--metric", options->metric, "What --max-error limits; psnr: from below")
       ->check(CLI::IsMember({"mse", "psnr", "max", "flip"}))
       ->capture_default_str();
   verb->add_option("--pixels-per-degree", options->pixels_per_degree, "Of the viewer, for FLIP")
-      ->check(CLI::Range(1.0, 1000.0));
+      ->check(within(1, 1000));
   verb->footer(
       "PNG and JPEG are compared by the values that they hold (0 to 1), others by linear values.\n"
       "FLIP is HDR-FLIP if neither is PNG or JPEG.\n"

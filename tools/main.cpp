@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
+#include <string>
 
 #include "geometry/input_error.h"
 #include "geometry/output_error.h"
@@ -28,6 +29,9 @@ int main(int argc, char** argv) {
   app.name("parity");
   app.set_version_flag("--version", "parity " PARITY_VERSION);
   app.require_subcommand(1);
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return "parity: " + std::string(error.what()) + " (--help says more)\n";
+  });
   app.footer(exit_codes);
   int exit_code = 0;
   parity::tools::add_devices_verb(app, exit_code);

@@ -31,6 +31,7 @@
 #include "gpu/shading/prefilter.h"
 #include "gpu/shading/tone_map.h"
 #include "tools/antialias.h"
+#include "tools/options.h"
 #include "tools/progress.h"
 #include "tools/render_options.h"
 #include "tools/verb.h"
@@ -213,6 +214,11 @@ Job render_on_gpu(Task& task) {
   return job;
 }
 
+/// A pixel, at most.
+int samples_of(const Job& job, const FrameOptions& options) {
+  return job.aa.empty() ? options.samples : parse_antialiasing(job.aa).samples;
+}
+
 nlohmann::json metrics(const RenderArguments& arguments, const Frame& frame, const Job& job,
                        double load_seconds) {
   rusage usage{};
@@ -232,7 +238,7 @@ nlohmann::json metrics(const RenderArguments& arguments, const Frame& frame, con
       {"device", job.device},
       {"width", frame.options.width},
       {"height", frame.options.height},
-      {"samples", frame.options.samples},
+      {"samples", samples_of(job, frame.options)},
       {"antialiasing", job.aa.empty() ? "msaa" + std::to_string(frame.options.samples) : job.aa},
       {"antialiasing_trials", trials},
       {"triangles", job.picture.triangle_count},
@@ -274,6 +280,7 @@ void save(const RenderArguments& arguments, const Job& job) {
 int render(const RenderArguments& arguments) {
   check_output(arguments);
   antialiasing(arguments);
+  check_device(arguments.backend, arguments.device);
   const bool display = std::filesystem::path(arguments.output).extension() == ".png";
   const ivec2 size = parse_size(arguments.size);
   const vec4 background = parse_background(arguments.background);
@@ -318,7 +325,7 @@ int render(const RenderArguments& arguments) {
     std::fprintf(stderr, "%s: %llu triangles, %dx%d, %d samples, %.1f ms on %s\n",
                  arguments.output.c_str(),
                  static_cast<unsigned long long>(job.picture.triangle_count), size.x, size.y,
-                 options.samples, job.seconds * 1e3, job.device.c_str());
+                 samples_of(job, options), job.seconds * 1e3, job.device.c_str());
   return 0;
 }
 
@@ -347,14 +354,14 @@ void add_render_verb(CLI::App& app, int& exit_code) {
       ->excludes(msaa);
   verb->add_option("--max-error", a->max_error,
                    "With --aa auto: mean FLIP against 64 frames of this picture")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(within(0, 1));
   verb->add_option("--backend", a->backend, "gpu: Vulkan; cpu: the reference alone")
       ->check(CLI::IsMember({"gpu", "cpu"}))
       ->capture_default_str();
   verb->add_option("--device", a->device,
                    "Vulkan device: number or part of its name (see parity devices)");
   verb->add_option("--exposure", a->exposure, "Stops: +1 is twice as bright")
-      ->check(CLI::Range(-64.0, 64.0))
+      ->check(within(-64, 64))
       ->capture_default_str();
   verb->add_option("--tone-map", a->tone_map,
                    "How light becomes a .png: neutral (Khronos PBR Neutral), aces, agx, none")
@@ -365,7 +372,8 @@ void add_render_verb(CLI::App& app, int& exit_code) {
                    "(default: the environment's picture, else #2b2f36)");
   verb->add_option(
       "--environment", a->environment,
-      "A picture of the light from all around (equirectangular .hdr or .exr), or its radiance, "
+      "A picture of the light from all around (equirectangular .hdr or .exr; of a .png or .jpg the "
+      "light that a screen would give), or its radiance, "
       "linear: l or r,g,b (default: 0 if the scene has lights)");
   verb->add_option("--shadows", a->shadows,
                    "Shadows of directional, spot and point lights, by shadow maps")

@@ -10,6 +10,7 @@
 #include "gpu/core/context.h"
 #include "sim/scene_io.h"
 #include "tools/bad_option.h"
+#include "tools/options.h"
 #include "tools/sim_job.h"
 #include "tools/verb.h"
 
@@ -90,6 +91,7 @@ volatile std::sig_atomic_t interrupted = 0;
 extern "C" void note_interrupt(int) { interrupted = 1; }
 
 int sim(const SimArguments& a) {
+  check_device(a.backend, a.device);
   const SimScene scene = scene_of(a);
   SimJob job{.input = a.input,
              .folder = a.output,
@@ -121,7 +123,7 @@ void add_sim_verb(CLI::App& app, int& exit_code) {
   verb->add_option("-o,--output", a->output,
                    "Folder for frame_####.png, metrics.json, checkpoint.bin and other files");
   verb->add_option("--duration", a->duration, "Seconds to simulate, instead of the scene's")
-      ->check(CLI::Range(1e-6, 1e6));
+      ->check(within(1e-6, 1e6));
   verb->add_option("--resolution", a->resolution,
                    "Cells or particles along the longest side, instead of the scene's")
       ->check(CLI::Range(2, 4096));
@@ -138,7 +140,7 @@ void add_sim_verb(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 1024));
   verb->add_option("--checkpoint-seconds", a->checkpoint_seconds,
                    "Write a checkpoint after a frame when the last one is that old")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(within(0, 1e6))
       ->capture_default_str();
   verb->add_flag("--resume", a->resume, "Go on from the folder's checkpoint, to the same bits");
   verb->add_flag("--video", a->video, "Make video.mp4 of the frames (needs ffmpeg)");

@@ -21,6 +21,7 @@
 #include "gpu/sampling/reconstruct.h"
 #include "gpu/sampling/spectrum.h"
 #include "tools/bad_option.h"
+#include "tools/options.h"
 #include "tools/verb.h"
 
 namespace parity::tools {
@@ -205,6 +206,22 @@ dvec2 alias(dvec2 f) {
   return (shown.x < 0 ? -shown : shown) + 0.0;
 }
 
+/// Samples may fall on the zeros of a grating that they show with half a cycle a pixel.
+bool hangs_on_phase(dvec2 shown) {
+  return shown != dvec2(0.0) && glm::round(2.0 * shown) == 2.0 * shown;
+}
+
+struct SampledGrating {
+  dvec2 frequency;  ///< cycles a pixel of the picture that is transformed
+  dvec2 shown;      ///< what its samples look like
+};
+
+std::optional<SampledGrating> grating_of(const Options& options, const Found& found) {
+  if (options.grating.empty()) return std::nullopt;
+  const dvec2 f = parse_grating(options.grating) * double(options.size) / dvec2(found.size);
+  return SampledGrating{f, alias(f)};
+}
+
 /// Peaks that are more than sidelobes of the strongest.
 std::vector<cpu::SpectrumPeak> clear_peaks(const Grid<dvec2>& spectrum, int count) {
   constexpr double sidelobes = 1e-3;  // of cpu::windowed
@@ -219,12 +236,13 @@ double five_digits(double value) { return std::round(value * 1e5) / 1e5 + 0.0; }
 
 void print(const Options& options, const Signal& signal, const Found& found) {
   std::printf("%s: %dx%d px\n", signal.name.c_str(), found.size.x, found.size.y);
-  if (!options.grating.empty()) {
-    const dvec2 f = parse_grating(options.grating) * double(options.size) / dvec2(found.size);
-    const dvec2 shown = alias(f);
-    std::printf("a grating of (%.6g, %.6g) cycles a pixel looks like (%.6g, %.6g)\n", f.x, f.y,
-                shown.x, shown.y);
+  if (const auto grating = grating_of(options, found)) {
+    const auto& [f, shown] = *grating;
+    std::printf("a grating of (%.6g, %.6g) cycles a pixel looks like (%.6g, %.6g)%s\n", f.x, f.y,
+                shown.x, shown.y,
+                hangs_on_phase(shown) ? ", as strong or faint as its phase has it" : "");
   }
+  if (options.peaks == 0) return;
   if (found.peaks.empty()) {
     std::printf("no frequency but 0\n");
     return;
@@ -244,19 +262,24 @@ void print_json(const Options& options, const Signal& signal, const Found& found
     peaks.push_back({{"frequency", {peak.frequency.x, peak.frequency.y}},
                      {"direction_degrees", direction(peak.frequency)},
                      {"amplitude", peak.amplitude}});
-  const nlohmann::json json = {{"version", 1},
-                               {"input", signal.name},
-                               {"width", found.size.x},
-                               {"height", found.size.y},
-                               {"scale", options.scale},
-                               {"filter", options.filter},
-                               {"window", options.window},
-                               {"backend", options.backend},
-                               {"peaks", peaks}};
+  nlohmann::json json = {{"version", 1},
+                         {"input", signal.name},
+                         {"width", found.size.x},
+                         {"height", found.size.y},
+                         {"scale", options.scale},
+                         {"filter", options.filter},
+                         {"window", options.window},
+                         {"backend", options.backend},
+                         {"peaks", peaks}};
+  if (const auto grating = grating_of(options, found)) {
+    json["grating"] = {grating->frequency.x, grating->frequency.y};
+    json["looks_like"] = {grating->shown.x, grating->shown.y};
+  }
   std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
 }
 
 void check(const Options& options) {
+  check_device(options.backend, options.device);
   if (options.output.empty()) return;
   const std::filesystem::path output = options.output;
   if (output.extension() != ".png") throw bad_option("output", options.output, "a name with .png");
@@ -286,19 +309,22 @@ void add_spectrum_verb(CLI::App& app, int& exit_code) {
   CLI::App* verb =
       app.add_subcommand("spectrum", "Draw a picture's spectrum; see what sampling does to it");
   const auto o = std::make_shared<Options>();
-  verb->add_option("PICTURE", o->input, "PNG, JPEG, HDR, EXR or PFM; its luminance counts");
+  CLI::Option* picture =
+      verb->add_option("PICTURE", o->input, "PNG, JPEG, HDR, EXR or PFM; its luminance counts");
   verb->add_option(
           "--zone-plate", o->zone_plate,
           "Instead: rings whose frequency grows from 0 to this, cycles a pixel, at the sides")
-      ->check(CLI::Range(1e-6, 1e6));
+      ->check(within(1e-6, 1e6));
   verb->add_option("--grating", o->grating, "Instead: a cosine of FX,FY cycles a pixel");
   verb->add_option("--size", o->size, "Side of what is drawn instead, px")
       ->check(CLI::Range(8, largest_side))
+      ->excludes(picture)
       ->capture_default_str();
-  verb->add_option("--scale", o->scale, "Resample first, by this factor")
-      ->check(CLI::Range(1e-3, 1e3));
+  CLI::Option* scale = verb->add_option("--scale", o->scale, "Resample first, by this factor")
+                           ->check(within(1e-3, 1e3));
   verb->add_option("--filter", o->filter, "Of the resampling: none takes the nearest pixel")
       ->check(CLI::IsMember({"none", "box", "tent", "gaussian", "mitchell", "lanczos"}))
+      ->needs(scale)
       ->capture_default_str();
   verb->add_option("--window", o->window,
                    "gaussian: looks at the middle, sharp peaks; none: at all, as if it repeated")
