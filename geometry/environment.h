@@ -30,7 +30,7 @@ EnvironmentMap environment_map(const Grid<vec4>& picture, int side);
 
 /// What a renderer needs of an environment: cpu::prefilter and gpu::prefilter make it.
 struct EnvironmentLight {
-  /// What a mirror of roughness i / (size - 1) shows where it is looked at straight: octahedral,
+  /// What a mirror of each of mirror_roughness shows where it is looked at straight: octahedral,
   /// with a border of one texel that repeats what is across the edge.
   std::vector<Grid<vec4>> mirrors;
   /// Irradiance over pi of a surface by its normal, likewise. Empty: the harmonics are enough.
@@ -39,8 +39,12 @@ struct EnvironmentLight {
   std::array<vec3, 9> harmonics{};
 };
 
-/// Sides of the levels of EnvironmentLight::mirrors without their borders.
-constexpr std::array<int, 6> mirror_sides{256, 128, 64, 32, 32, 32};
+/// Of the levels of EnvironmentLight::mirrors; between them lookups mix. The first one stands for
+/// the smoothest surfaces, whose lobes are within a texel: roughness r belongs to the level
+/// max(min((r - 0.045) / 0.055, 10 r, 1 + 5 r), 0).
+constexpr std::array<double, 7> mirror_roughness{0, 0.1, 0.2, 0.4, 0.6, 0.8, 1};
+/// Without their borders.
+constexpr std::array<int, 7> mirror_sides{256, 128, 128, 64, 32, 32, 32};
 
 /// Side of EnvironmentLight::irradiance without its border, and the most that the level of the map
 /// has whose texels it sums.

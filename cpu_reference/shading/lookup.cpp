@@ -165,8 +165,10 @@ Real tabulated_sheen(const Grid<vec4>& table, const Real& cosine, const Real& ro
 template <class Real>
 Triple<Real> mirrored(const EnvironmentLight& light, const Triple<Real>& direction,
                       const Real& roughness) {
-  return mirrored_at(light, direction,
-                     clamped(roughness, 0.0, 1.0) * Real(double(light.mirrors.size() - 1)));
+  const Real r = clamped(roughness, 0.0, 1.0);
+  const Real smooth = (r - rounded<Real>(0.045)) / rounded<Real>(0.055);
+  const Real rough = least(r * Real(10.0), r * Real(5.0) + Real(1.0));
+  return mirrored_at(light, direction, most(least(smooth, rough), Real(0.0)));
 }
 
 template <class Real>

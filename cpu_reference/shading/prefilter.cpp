@@ -169,8 +169,8 @@ EnvironmentLight prefilter(const EnvironmentMap& map, int samples) {
   const Grid<vec4> irradiance = prefilter_irradiance(map);
   if (!harmonics_suffice(light.harmonics, irradiance)) light.irradiance = with_border(irradiance);
   for (std::size_t i = 0; i < mirror_sides.size(); ++i) {
-    const double roughness = double(i) / double(mirror_sides.size() - 1);
-    light.mirrors.push_back(with_border(mirror_of(levels, roughness, mirror_sides[i], samples)));
+    light.mirrors.push_back(
+        with_border(mirror_of(levels, mirror_roughness[i], mirror_sides[i], samples)));
   }
   return light;
 }

@@ -4,7 +4,7 @@
 
 namespace parity::cpu {
 
-/// What renderers need of an environment. Mirrors of roughness i / 5: the mean of the light that
+/// What renderers need of an environment. Mirrors of mirror_roughness: the mean of the light that
 /// `samples` half vectors (Hammersley points of the distribution, the surface looked at straight)
 /// send to the eye, weighed by the cosine; each reads the map at a level whose texels are as large
 /// as its share of all directions. Irradiance over pi: the sum over a level of the map.

@@ -20,7 +20,6 @@ SceneEnvironment describe(const EnvironmentLight& light, BufferRef<vec4> mirrors
   if (!light.irradiance.empty())
     result.irradiance_side = std::uint32_t(light.irradiance.width() - 2);
   std::copy(light.harmonics.begin(), light.harmonics.end(), result.harmonics);
-  result.level_count = std::uint32_t(light.mirrors.size());
   std::uint32_t begin = 0;
   for (std::size_t i = 0; i < light.mirrors.size(); ++i) {
     result.begins[i] = begin;

@@ -125,9 +125,8 @@ EnvironmentLight prefilter(Context& context, const EnvironmentMap& map, int samp
   const Grid<vec4> by_normal = irradiance(context, uploaded, map);
   if (!harmonics_suffice(light.harmonics, by_normal)) light.irradiance = with_border(by_normal);
   for (std::size_t i = 0; i < mirror_sides.size(); ++i) {
-    const double roughness = double(i) / double(mirror_sides.size() - 1);
     light.mirrors.push_back(
-        with_border(mirror(context, uploaded, roughness, mirror_sides[i], samples)));
+        with_border(mirror(context, uploaded, mirror_roughness[i], mirror_sides[i], samples)));
   }
   return light;
 }

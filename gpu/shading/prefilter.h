@@ -5,7 +5,7 @@
 
 namespace parity::gpu {
 
-/// What renderers need of an environment: mirrors of six roughnesses, and the irradiance by normal.
+/// What renderers need of an environment: mirrors of seven roughnesses, and the irradiance by normal.
 ///
 /// @param samples  directions for each texel of a rough mirror, 1 to 4096.
 /// @throws std::invalid_argument  samples out of range, fewer than two levels.

@@ -137,16 +137,16 @@ struct SceneLayers {
 };
 REF_TYPE(SceneLayers, 4)
 
+const uint mirror_level_count = 7u;
+
 // Light from all around: parity::EnvironmentLight.
 struct SceneEnvironment {
   REF(vec4) mirrors;     // level after level, each with a border
   REF(vec4) irradiance;  // one level with its border, or none
-  uint level_count;
-  uint begins[6];
-  uint sides[6];  // without borders
-  uint irradiance_side;  // 0: harmonics
+  uint begins[mirror_level_count];
+  uint sides[mirror_level_count];  // without borders
+  uint irradiance_side;            // 0: harmonics
   vec3 harmonics[9];
-  uint padding;
 };
 REF_TYPE(SceneEnvironment, 8)
 

@@ -8,9 +8,9 @@
 // What a mirror of that roughness shows.
 vec3 mirrored(ref_SceneEnvironment environment, vec3 direction, float roughness) {
   const vec2 uv = octahedral_uv(direction);
-  const uint count = environment.at[0].level_count;
-  const float level = clamp(roughness, 0.0, 1.0) * float(count - 1u);
-  const uint i = min(uint(level), count - 2u);
+  const float r = clamp(roughness, 0.0, 1.0);
+  const float level = max(min(min((r - 0.045) / 0.055, 10.0 * r), 5.0 * r + 1.0), 0.0);
+  const uint i = min(uint(level), mirror_level_count - 2u);
   const vec3 sharper = octahedral_texel(environment.at[0].mirrors, environment.at[0].begins[i],
                                         environment.at[0].sides[i], uv);
   const vec3 softer = octahedral_texel(environment.at[0].mirrors, environment.at[0].begins[i + 1u],
