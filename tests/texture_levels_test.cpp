@@ -8,9 +8,11 @@
 #include <filesystem>
 
 #include "geometry/jitter.h"
+#include "geometry/mip_pyramid.h"
 #include "geometry/random.h"
 #include "geometry/scene_io.h"
 #include "gpu/sampling/antialias.h"
+#include "gpu/texture/mip_pyramid.h"
 #include "tests/renderer_scene.h"
 #include "tests/shared_data.h"
 #include "tests/texture/textured_square.h"
@@ -169,6 +171,45 @@ TEST_F(GpuRenderer, AntialiasedPicturesReadNoOtherLevels) {
   for (const dvec2& shift : shifts) join(levels, read_levels(scene, shifted(frame, shift)));
   gpu::Antialiaser these(test_context(), scene, levels);
   EXPECT_EQ(these.accumulate(frame, shifts).color, all.accumulate(frame, shifts).color);
+}
+
+TEST_F(GpuRenderer, LevelsMadeInBandsAreThoseOfTheWhole) {
+  gpu::Context& context = test_context();
+  const gpu::MipPyramid pyramid(context);
+  Random random{17};
+  for (const ivec2 size : {ivec2(512, 520), ivec2(1048, 264), ivec2(24, 8), ivec2(30, 40)}) {
+    Grid<u8vec4> image(size.x, size.y);
+    for (u8vec4& t : image)
+      t = u8vec4(random.uniform(0, 255), random.uniform(0, 255), random.uniform(0, 255), 255);
+    const std::vector<MipLevel> levels = mip_levels(size.x, size.y);
+    for (const bool srgb : {false, true}) {
+      const std::vector<std::uint32_t> all =
+          gpu::build_pyramid(context, pyramid, image, srgb, {}).read();
+      for (const std::size_t first : {1, 2, 3})
+        for (const std::size_t last : {first, levels.size() - 1}) {
+          const std::vector<std::uint32_t> some =
+              gpu::build_pyramid(context, pyramid, image, srgb,
+                                 {.head = 3, .first = first, .last = last})
+                  .read();
+          const MipLevel& end = levels[last];
+          const std::size_t count =
+              end.first + std::size_t(end.width) * std::size_t(end.height) - levels[first].first;
+          ASSERT_EQ(some.size(), 3 + count);
+          EXPECT_TRUE(std::equal(some.begin() + 3, some.end(),
+                                 all.begin() + std::ptrdiff_t(levels[first].first)))
+              << size.x << " x " << size.y << ", " << first << " to " << last;
+        }
+    }
+  }
+}
+
+TEST(MipPyramid, ALevelThatIsNotKeptIsNeverOnTheDeviceAsAWhole) {
+  gpu::Context context;
+  const gpu::MipPyramid pyramid(context);
+  const Grid<u8vec4> image(2048, 2048, u8vec4(7));
+  const std::uint64_t before = context.memory_bytes();
+  gpu::build_pyramid(context, pyramid, image, true, {.first = 3});
+  EXPECT_LT(context.peak_memory_bytes() - before, 4 * image.size());
 }
 
 TEST(ReadLevels, LeaveOutTheFullSizeOfThinTrianglesAndThoseBetweenSamples) {

@@ -33,6 +33,17 @@ class MipPyramid {
   void record(Commands& commands, BufferRef<std::uint32_t> codes, int width, int height, bool srgb,
               const Scratch& scratch, std::size_t count = 99) const;
 
+  /// Fills levels 1..3 below some rows of level 0, which need not lie before them. Both sides of
+  /// level 0, the first row, and the count of rows are multiples of 8.
+  void record_rows(Commands& commands, BufferRef<std::uint32_t> rows, int first, int count,
+                   BufferRef<std::uint32_t> codes, int width, int height, bool srgb,
+                   const Scratch& scratch) const;
+
+  /// Fills levels next..count - 1 below level next - 1, whose means are in `scratch`, or, below
+  /// level 0, its codes.
+  void record_below(Commands& commands, std::size_t next, BufferRef<std::uint32_t> codes, int width,
+                    int height, bool srgb, const Scratch& scratch, std::size_t count) const;
+
  private:
   Kernel<MipTripleArgs> linear_triple_, srgb_triple_;
   Kernel<MipLevelArgs> linear_first_, srgb_first_, linear_next_, srgb_next_;
@@ -46,6 +57,10 @@ struct PyramidRoom {
 };
 
 /// Levels of an image, RGBA8, one after another as mip_levels says.
+///
+/// Where level 0 is not kept and both its sides are multiples of 8, it comes to the device a few
+/// rows at a time, and is never there as a whole. Of other sizes all levels to the last one are
+/// there until the copy.
 ///
 /// @throws std::invalid_argument  the image is empty; there is no first level.
 Buffer<std::uint32_t> build_pyramid(Context& context, const MipPyramid& pyramid,
