@@ -24,10 +24,9 @@ LevelRange levels_of(const FootprintBounds& f, const Sampler& sampler, int last)
   if (follows && f.longest < 0.98) return {0, 0};  // magnified
   if (follows) {
     const double most = std::min(sampler.max_anisotropy, 16);
+    // Where that leaves out the full size, the major axis is above sqrt(2): none of it is mixed in.
     low = std::log2(std::max(f.minor, f.major / most)) + 0.5;
     high = 0.5 * std::log2(std::max({f.area, f.longest * f.longest / (most * most), 1.0})) + 0.5;
-    // Near the full size both it and what is averaged are read.
-    if (!(f.major > 1.5)) low = 0;
   }
   LevelRange range{0, last};
   if (low - 0.05 > 0) range.least = int(std::min(low - 0.05, double(last)));
