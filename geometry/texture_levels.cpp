@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "geometry/mip_pyramid.h"
 #include "geometry/texture_footprint.h"
@@ -34,31 +35,32 @@ LevelRange levels_of(const FootprintBounds& f, const Sampler& sampler, int last)
   return range;
 }
 
-/// Of a primitive in one place for one use of a texture.
+/// What a draw reads by one use of a texture.
 class UseLevels {
  public:
   UseLevels(const Scene& scene, const ShadingView& view, const TextureUse& use)
       : view_(view), use_(use), texture_(scene.textures[std::size_t(use.texture)]) {
     const Grid<u8vec4>& image = scene.images[std::size_t(texture_.image)];
     size_ = {image.width(), image.height()};
-    last_ = int(mip_levels(image.width(), image.height()).size()) - 1;
+    last_ = texture_.sampler.mip ? int(mip_levels(image.width(), image.height()).size()) - 1 : 0;
   }
 
-  LevelRange all() const { return {0, texture_.sampler.mip ? last_ : 0}; }
+  std::size_t image() const { return std::size_t(texture_.image); }
+  const LevelRange& range() const { return range_; }
+  bool is_full() const { return range_.least == 0 && range_.greatest >= last_; }
 
-  LevelRange of(const Draw& draw, const Primitive& p, bool double_sided) const {
-    if (p.topology != Topology::triangles) return all();
+  /// What does not hang on the triangles; then it is full, or needs no more.
+  bool settle(const Primitive& p, bool is_mask) {
     const std::size_t set = std::size_t(use_.uv_set);
-    if (set >= p.uvs.size() || p.uvs[set].empty()) return {0, 0};
-    LevelRange range;
-    for (std::size_t i = 0; i + 2 < p.indices.size(); i += 3) {
-      const ShadedPlaces piece =
-          shaded_places(view_, draw, double_sided, p.positions, &p.indices[i]);
-      if (piece.places.empty()) continue;
-      range.join(of_piece(piece, texels(p.uvs[set], &p.indices[i])));
-      if (range.least == 0 && range.greatest >= all().greatest) return range;
-    }
-    return range;
+    if (is_mask || p.topology != Topology::triangles)
+      range_ = {0, last_};
+    else if (set >= p.uvs.size() || p.uvs[set].empty())
+      range_ = {0, 0};
+    return !range_.empty();
+  }
+
+  void add(const ShadedPlaces& piece, const Primitive& p, const std::uint32_t* vertices) {
+    if (!is_full()) range_.join(of_piece(piece, texels(p.uvs[std::size_t(use_.uv_set)], vertices)));
   }
 
  private:
@@ -85,7 +87,29 @@ class UseLevels {
   const Texture& texture_;
   dvec2 size_{1.0};
   int last_ = 0;
+  LevelRange range_;
 };
+
+std::vector<UseLevels> uses_of(const Scene& scene, const ShadingView& view,
+                               const Material& material) {
+  std::vector<UseLevels> uses;
+  for (const TextureUse* use : textures_of(material)) {
+    if (use->texture < 0) continue;
+    const int image = scene.textures[std::size_t(use->texture)].image;
+    if (!scene.images[std::size_t(image)].empty()) uses.emplace_back(scene, view, *use);
+  }
+  return uses;
+}
+
+void add_triangles(const ShadingView& view, const Draw& draw, const Primitive& p, bool double_sided,
+                   std::vector<UseLevels*> uses) {
+  for (std::size_t i = 0; i + 2 < p.indices.size() && !uses.empty(); i += 3) {
+    const ShadedPlaces piece = shaded_places(view, draw, double_sided, p.positions, &p.indices[i]);
+    if (piece.places.empty()) continue;
+    for (UseLevels* use : uses) use->add(piece, p, &p.indices[i]);
+    std::erase_if(uses, [](const UseLevels* use) { return use->is_full(); });
+  }
+}
 
 }  // namespace
 
@@ -106,15 +130,12 @@ std::vector<LevelRange> read_levels(const Scene& scene, const Frame& frame, bool
     const Material& material = scene.materials[std::size_t(draw.material)];
     const Primitive& primitive =
         scene.meshes[std::size_t(draw.mesh)].primitives[std::size_t(draw.primitive)];
-    for (const TextureUse* use : textures_of(material)) {
-      if (use->texture < 0) continue;
-      const int image = scene.textures[std::size_t(use->texture)].image;
-      if (scene.images[std::size_t(image)].empty()) continue;
-      const UseLevels of_use(scene, view, *use);
-      const bool is_mask = material.alpha_mode == AlphaMode::mask;
-      levels[std::size_t(image)].join(is_mask ? of_use.all()
-                                              : of_use.of(draw, primitive, material.double_sided));
-    }
+    std::vector<UseLevels> uses = uses_of(scene, view, material);
+    std::vector<UseLevels*> open;
+    for (UseLevels& use : uses)
+      if (!use.settle(primitive, material.alpha_mode == AlphaMode::mask)) open.push_back(&use);
+    add_triangles(view, draw, primitive, material.double_sided, std::move(open));
+    for (const UseLevels& use : uses) levels[use.image()].join(use.range());
   }
   return levels;
 }
