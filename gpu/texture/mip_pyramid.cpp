@@ -96,7 +96,7 @@ void MipPyramid::record_below(Commands& commands, std::size_t next, BufferRef<st
 namespace {
 
 /// Texels that are on the device at a time of a level 0 that is not kept.
-constexpr int band_texels = 1 << 16;
+constexpr int band_texels = 1 << 18;
 
 /// Levels first..last of an image, behind room for the head; level 0 only in bands of rows.
 Buffer<std::uint32_t> build_in_bands(Context& context, const MipPyramid& pyramid,

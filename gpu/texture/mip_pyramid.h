@@ -58,9 +58,9 @@ struct PyramidRoom {
 
 /// Levels of an image, RGBA8, one after another as mip_levels says.
 ///
-/// Where level 0 is not kept and both its sides are multiples of 8, it comes to the device a few
-/// rows at a time, and is never there as a whole. Of other sizes all levels to the last one are
-/// there until the copy.
+/// Where level 0 is not kept and both its sides are multiples of 8, it comes to the device by bands
+/// of rows, 1 MiB or 8 rows at a time. Of other sizes all levels to the last one are there until
+/// the copy.
 ///
 /// @throws std::invalid_argument  the image is empty; there is no first level.
 Buffer<std::uint32_t> build_pyramid(Context& context, const MipPyramid& pyramid,
